@@ -21,18 +21,18 @@ from parley.messages.failure import FailureReport
 from parley.umrf.action import RunHandle
 from parley.umrf.admission import check_entry, check_removed, values_to_continue
 from parley.umrf.catalogue import Catalogue
+from parley.umrf.check import resolve
 from parley.umrf.flow import Effect, Flow, FlowNode
 from parley.umrf.graph_index import GraphSpec
-from parley.umrf.model import ENDED, Graph, GraphState, NodeState, Result
+from parley.umrf.model import ENDED, NOTHING, Graph, GraphState, NodeState, Result
 from parley.umrf.node_run import Ended, Inside, NodeRun
 from parley.umrf.other_runs import RemoteRun, run_of
 from parley.umrf.remote import Peers, RemoteEnd
 from parley.umrf.reports import failure_lines, stop_timed_out_text
-from parley.umrf.resolve import resolve
 from parley.umrf.rounds import Rounds
 from parley.umrf.saved import Later, SavedRun, load, save_frame, save_node
 from parley.umrf.slices import in_slices
-from parley.umrf.transition import NO_FACTS, Announcer, Observer
+from parley.umrf.transition import Announcer, Observer
 
 __all__ = ["STOP_TIMEOUT_S", "GraphRun"]
 
@@ -78,7 +78,7 @@ class GraphRun:
         make_context: Callable[[RunHandle], Any],
         observer: Observer | None = None,
         stop_timeout_s: float = STOP_TIMEOUT_S,
-        parameters: Mapping[str, Any] = NO_FACTS,
+        parameters: Mapping[str, Any] = NOTHING,
         peers: Peers | None = None,
         make_inner: Callable[..., GraphRun] | None = None,
     ) -> None:
@@ -95,8 +95,8 @@ class GraphRun:
         self._resolve = functools.partial(
             resolve, catalogue=catalogue, actor=actor, known_actors=known, given=parameters.keys()
         )
-        resolved = self._resolve(graph)
-        self._graph, self._flow = resolved.graph, Flow(resolved.graph, resolved.specs)
+        self._graph, specs = self._resolve(graph)
+        self._flow = Flow(self._graph, specs)
         self._flow.give(parameters)
         if parameters:
             check_entry(self.name, self._flow)
@@ -228,10 +228,10 @@ class GraphRun:
         if self.state in ENDED or self.state is GraphState.STOPPING:
             text = f"{self.name} is {self.state} and cannot be changed"
             raise self._refusal("graph_ended", text, "start a new graph")
-        resolved = self._resolve(replace(graph, name=self.name))
+        resolved, specs = self._resolve(replace(graph, name=self.name))
         check_removed(self.name, self._active(), {node.full_name for node in graph.nodes})
-        flow = self._flow.replaced(resolved.graph, resolved.specs)
-        return resolved.graph, flow, values_to_continue(self.name, flow, continue_from, self._runs)
+        flow = Flow(resolved, specs, previous=self._flow)
+        return resolved, flow, values_to_continue(self.name, flow, continue_from, self._runs)
 
     async def wait(self) -> Result:
         """Wait until the graph has ended or halted; how it ended."""
@@ -398,7 +398,7 @@ class GraphRun:
         result: Result,
         outputs: Mapping[str, Any],
         cause: str,
-        facts: Mapping[str, Any] = NO_FACTS,
+        facts: Mapping[str, Any] = NOTHING,
         *,
         failed: bool = True,
     ) -> None:
@@ -553,7 +553,7 @@ class GraphRun:
         state: NodeState,
         cause: str,
         result: Result | None = None,
-        facts: Mapping[str, Any] = NO_FACTS,
+        facts: Mapping[str, Any] = NOTHING,
     ) -> None:
         item.state = state
         item.touch()
