@@ -92,6 +92,22 @@ async def test_a_long_queue_is_worked_off_without_rests(monkeypatch: pytest.Monk
     assert len(sent) == 50
 
 
+async def test_a_crowd_is_not_written_one_by_one_while_others_keep_the_loop(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(feedback_room, "_MANY", 20)
+    sent: list[UmrfGraphFeedback] = []
+    feedback = Feedback("A", WallClock(), sent.append)
+    for index in range(120):
+        feedback.changed(Watched(chain(f"g{index}", [node("NoOp")])).run)
+    turns = 0
+    while len(sent) < 100:
+        await asyncio.sleep(0)
+        turns += 1
+    assert turns < 90
+    feedback.close()
+
+
 async def test_a_graph_that_is_over_is_let_go_of_once_it_was_told() -> None:
     sent: list[UmrfGraphFeedback] = []
     feedback = Feedback("A", WallClock(), sent.append)

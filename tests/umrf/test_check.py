@@ -10,9 +10,8 @@ from parley.errors import GraphRefusedError, Problem
 from parley.messages.pvf import Parameter
 from parley.umrf.action import ActionSpec
 from parley.umrf.catalogue import Catalogue
-from parley.umrf.check import check, reasons
+from parley.umrf.check import check, reasons, resolve
 from parley.umrf.io import read_graph
-from parley.umrf.resolve import resolve
 
 from .spec_actions import CATALOGUE, chain, node
 
@@ -187,8 +186,8 @@ def test_resolving_refuses_with_all_problems_and_merges_defaults() -> None:
     with pytest.raises(GraphRefusedError) as error:
         resolve(read_graph(two(parents=[])), CATALOGUE, actor="A")
     assert error.value.graph_name == "g"
-    resolved = resolve(read_graph(two()), CATALOGUE, actor="A")
-    assert resolved.specs["SameText_1"].name == "SameText"
+    graph, specs = resolve(read_graph(two()), CATALOGUE, actor="A")
+    assert [spec.name for spec in specs] == [node.name for node in graph.nodes]
 
 
 def test_a_value_that_cannot_be_read_does_not_hide_what_else_is_wrong() -> None:

@@ -8,17 +8,16 @@ from typing import Any
 import pytest
 
 from parley.messages.pvf import Parameter
+from parley.umrf.check import resolve
 from parley.umrf.flow import Flow
 from parley.umrf.io import read_graph
 from parley.umrf.model import Result
-from parley.umrf.resolve import resolve
 
 from .spec_actions import CATALOGUE, chain, node
 
 
 def flow_of(raw: dict[str, Any]) -> Flow:
-    resolved = resolve(read_graph(raw), CATALOGUE)
-    return Flow(resolved.graph, resolved.specs)
+    return Flow(*resolve(read_graph(raw), CATALOGUE))
 
 
 def effects(flow: Flow, name: str, result: str) -> list[tuple[str, str]]:
@@ -163,7 +162,7 @@ def test_values_of_another_type_are_not_handed_over() -> None:
     taker = replace(raw.nodes[1], input_parameters={"size": Parameter("number", 1.0)})
     spec = CATALOGUE.get("NoOp")
     assert spec is not None
-    flow = Flow(replace(raw, nodes=(giver, taker)), {"NoOp_0": spec, "NoOp_1": spec})
+    flow = Flow(replace(raw, nodes=(giver, taker)), [spec, spec])
     flow.start()
     flow.nodes["NoOp_0"].outputs = {"size": "big"}
     assert effects(flow, "NoOp_0", "on_true") == [("run", "NoOp_1")]
@@ -249,8 +248,8 @@ def test_all_of_a_node_is_shown_and_only_what_changed_is_shown_anew() -> None:
         "gui_attributes": {"x": 1},
         "runtime": {"messages": [{"timestamp": 1, "message": "old"}]},
     }
-    graph = resolve(read_graph(raw), CATALOGUE, actor="A").graph
-    flow = Flow(graph, resolve(graph, CATALOGUE, actor="A").specs)
+    graph, specs = resolve(read_graph(raw), CATALOGUE, actor="A")
+    flow = Flow(graph, specs)
     first = flow.snapshot()
     shown = {item.name: getattr(first[0], item.name) for item in fields(first[0])}
     assert shown == {item.name: getattr(graph.nodes[0], item.name) for item in fields(first[0])} | {

@@ -45,11 +45,11 @@ from parley.umrf.catalogue import Catalogue, info_of
 from parley.umrf.check import reasons
 from parley.umrf.executor import STOP_TIMEOUT_S, GraphRun
 from parley.umrf.io import read_loaded, write_descriptor, write_graph
-from parley.umrf.model import Graph, Result
+from parley.umrf.model import NOTHING, Graph, Result
 from parley.umrf.motion import Motions
 from parley.umrf.node_run import NodeRun
 from parley.umrf.reading import load_object
-from parley.umrf.transition import NO_FACTS, Transition
+from parley.umrf.transition import Transition
 
 __all__ = ["ActionEngine"]
 
@@ -324,7 +324,7 @@ class ActionEngine:
     def start(
         self,
         graph: Graph | str,
-        parameters: Mapping[str, Any] = NO_FACTS,
+        parameters: Mapping[str, Any] = NOTHING,
         result: Result = Result.ON_TRUE,
     ) -> GraphRun:
         """Run a graph, or the indexed one of that name, from inside this process.

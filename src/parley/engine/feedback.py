@@ -19,14 +19,15 @@ __all__ = ["Feedback"]
 INTERVAL_S: Final = 0.008
 """What changes within it is told at its end, so that a free loop tells everything within 10 ms."""
 
-_COST_FACTOR: Final = 10
-"""Writing a graph of thousands of nodes takes a while; it may take a tenth of the time at most."""
-
-_REST_FACTOR: Final = 4
-"""All graphs together may take a fifth of the time, so that a hundred of them leave time for actions."""
+_REST_FACTOR: Final = 9
+"""Writing takes a tenth of the time at most, so that large graphs and many of them leave time for actions."""
 
 _MANY: Final = 200
-"""If more graphs than this wait, there is no rest, as all that wait are kept for so long."""
+"""If more graphs than this wait, there is no rest, as all that wait are kept for so long; and several are
+written in one turn of the loop, as starts may take the most of each."""
+
+_TURN_S: Final = 0.001
+"""Wall time in a turn of the loop after which nothing more is written in it."""
 
 _SLICE: Final = 50
 """So many nodes are written in one turn of the loop, about a millisecond; a stop must not wait longer."""
@@ -118,23 +119,28 @@ class Feedback:
             self._next = asyncio.get_running_loop().call_later(wait_s, self._work)
 
     def _work(self) -> None:
-        """Write a slice of the first in the queue, and send it if that was the last slice."""
+        """Write a slice of the first in the queue; of a crowd as many as the turn has time for."""
         self._next = None
-        if not self._queue:
-            return
-        due, began_s = self._queue[0], self._clock.wall_s()
-        graph = due.run.snapshot()
+        until_s = self._clock.wall_s() + _TURN_S
+        while self._queue:
+            self._write(self._queue[0])
+            if len(self._queue) < _MANY or self._clock.wall_s() >= until_s:
+                break
+        self._go_on()
+
+    def _write(self, due: _Due) -> None:
+        """Write a slice of what is due, and send it if that was the last slice."""
+        began_s, graph = self._clock.wall_s(), due.run.snapshot()
         if due.writer.prepare(graph, _SLICE):
             self._queue.popleft()
             due.waits = False
             self._send(due, graph)
             now_s = self._clock.wall_s()
-            due.not_before_s = now_s + max(self._interval_s, _COST_FACTOR * (now_s - began_s))
+            due.not_before_s = now_s + self._interval_s
             rest = _REST_FACTOR if len(self._queue) < _MANY else 0
             self._free_s = now_s + rest * (now_s - began_s)
             if graph.state in _RESTING and due.run.idle:
                 self._forget(due)
-        self._go_on()
 
     def _send(self, due: _Due, graph: Graph) -> None:
         self._publish(UmrfGraphFeedback(actor=self._actor, history=(due.writer.write(graph),)))

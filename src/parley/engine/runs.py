@@ -17,10 +17,10 @@ from parley.errors import GraphRefusedError, Problem
 from parley.umrf.action import RunHandle
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.executor import STOP_TIMEOUT_S, GraphRun
-from parley.umrf.model import BUSY, ENDED, Graph, GraphState, Result
+from parley.umrf.model import BUSY, ENDED, NOTHING, Graph, GraphState, Result
 from parley.umrf.remote import Peers
 from parley.umrf.saved import SavedRun
-from parley.umrf.transition import NO_FACTS, Transition
+from parley.umrf.transition import Transition
 
 __all__ = ["GraphRuns", "RunObserver"]
 
@@ -104,7 +104,7 @@ class GraphRuns:
     def start(
         self,
         graph: Graph | str,
-        parameters: Mapping[str, Any] = NO_FACTS,
+        parameters: Mapping[str, Any] = NOTHING,
         result: Result = Result.ON_TRUE,
     ) -> GraphRun:
         """Run a graph.
@@ -123,7 +123,7 @@ class GraphRuns:
         return run
 
     def prepare(
-        self, graph: Graph | str, parameters: Mapping[str, Any] = NO_FACTS, peers: Peers | None = None
+        self, graph: Graph | str, parameters: Mapping[str, Any] = NOTHING, peers: Peers | None = None
     ) -> GraphRun:
         """Take up a graph as `start` does, without beginning it."""
         if isinstance(graph, str):
@@ -149,7 +149,7 @@ class GraphRuns:
                 there is a graph of that name.
         """
         self.refuse_if_busy(saved.graph.name)
-        run = self._hold(saved.graph, NO_FACTS, None)
+        run = self._hold(saved.graph, NOTHING, None)
         try:
             run.restore(saved)
         except GraphRefusedError:

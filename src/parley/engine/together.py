@@ -13,8 +13,7 @@ from parley.errors import GraphRefusedError, Problem
 from parley.messages.status import ActorStatus, SyncEntry, SyncNotice
 from parley.umrf.executor import GraphRun
 from parley.umrf.io import read_graph
-from parley.umrf.model import Graph, GraphState, Result
-from parley.umrf.transition import NO_FACTS
+from parley.umrf.model import NOTHING, Graph, GraphState, Result
 
 __all__ = ["Together"]
 
@@ -65,7 +64,7 @@ class Together:
     def start(
         self,
         graph: Graph | str,
-        parameters: Mapping[str, Any] = NO_FACTS,
+        parameters: Mapping[str, Any] = NOTHING,
         result: Result = Result.ON_TRUE,
     ) -> GraphRun:
         """See `GraphRuns.start`; a graph that names other actors begins when all of them have taken it up.

@@ -6,15 +6,14 @@ runs without waiting for something that nobody will give.
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Final
 
 from parley.errors import GraphRefusedError, Problem
 from parley.messages.pvf import SEPARATOR, Parameter, Parameters
 from parley.umrf.action import ActionSpec
-from parley.umrf.catalogue import Catalogue
+from parley.umrf.catalogue import Catalogue, merge
 from parley.umrf.graph_index import GraphSpec, given_name
 from parley.umrf.io import UnreadableGraphError
 from parley.umrf.model import (
@@ -28,8 +27,9 @@ from parley.umrf.model import (
     Response,
     Result,
 )
+from parley.umrf.remote import RemoteSpec
 
-__all__ = ["check", "doubts", "reasons"]
+__all__ = ["check", "doubts", "reasons", "resolve"]
 
 MAX_LEVELS: Final = 30
 """How many graphs may be inside of each other."""
@@ -56,12 +56,33 @@ def check(
             need is known to their own engines alone.
         given: Names of the parameters that the start brings.
     """
-    return list(_Checker(graph, catalogue, actor, known_actors, given).problems())
+    return _Checker(graph, catalogue, actor, known_actors, given).problems()
+
+
+def resolve(
+    graph: Graph,
+    catalogue: Catalogue,
+    *,
+    actor: str = "",
+    known_actors: Collection[str] = (),
+    given: Collection[str] = (),
+) -> tuple[Graph, list[ActionSpec]]:
+    """The graph merged with the descriptors (7.3), and what runs each of its nodes; arguments as of `check`.
+
+    Raises:
+        GraphRefusedError: With every reason why it cannot run.
+    """
+    checker = _Checker(graph, catalogue, actor, known_actors, given)
+    if problems := checker.problems():
+        raise GraphRefusedError(graph.name, problems)
+    found = zip(graph.nodes, checker.specs, strict=True)
+    specs = [RemoteSpec.of(node) if spec is None else spec for node, spec in found]
+    return replace(graph, nodes=tuple(map(merge, graph.nodes, specs))), specs
 
 
 def doubts(graph: Graph, catalogue: Catalogue) -> list[Problem]:
     """What such a graph may come to wait for, although it can run: loops that nobody gives data again."""
-    return list(_Checker(graph, catalogue, "", (), ()).doubts())
+    return list(_Checker(graph, catalogue).doubts())
 
 
 def reasons(error: GraphRefusedError, catalogue: Catalogue, *, actor: str = "") -> list[Problem]:
@@ -84,9 +105,9 @@ class _Checker:
         self,
         graph: Graph,
         catalogue: Catalogue,
-        actor: str,
-        known_actors: Collection[str],
-        given: Collection[str],
+        actor: str = "",
+        known_actors: Collection[str] = (),
+        given: Collection[str] = (),
         inside: Sequence[str] = (),
         levels: dict[str, int] | None = None,
     ) -> None:
@@ -94,28 +115,32 @@ class _Checker:
         self.given, self.inside = given, (*inside, graph.name)
         self.levels: dict[str, int] = {} if levels is None else levels
         """Indexed graphs that were looked into -> how many levels are inside of them."""
+        self.specs: list[ActionSpec | None] = []
+        """What carries out each node here, once `problems` has looked; None: another actor, or nothing."""
         self.entries = {relation.node: relation for relation in graph.entry}
+        self.refs = [node.ref for node in graph.nodes]
         self.nodes: dict[NodeRef, Node] = {}
-        for node in graph.nodes:
-            self.nodes.setdefault(node.ref, node)
+        for ref, node in zip(self.refs, graph.nodes, strict=True):
+            self.nodes.setdefault(ref, node)
         self.children = {ref: {c.node: c for c in node.children} for ref, node in self.nodes.items()}
         self.parents = {ref: {p.node for p in node.parents} for ref, node in self.nodes.items()}
 
-    def problems(self) -> Iterator[Problem]:
+    def problems(self) -> list[Problem]:
         """Each problem."""
-        yield from self._names()
+        found = list(self._names())
         for index, node in enumerate(self.graph.nodes):
             path = f"actions[{index}]"
-            yield from self._relations(node, path)
-            yield from self._action(node, path)
+            found += self._relations(node, self.refs[index], path)
+            found += self._action(node, self.refs[index], path)
         for key, relations in (("graph_entry", self.graph.entry), ("graph_exit", self.graph.exit)):
-            yield from self._known(relations, key)
-        yield from self._unreachable()
+            found += self._known(relations, key)
+        return [*found, *self._unreachable()]
 
     def doubts(self) -> Iterator[Problem]:
         """Each input that comes along an edge once, of an action to which a loop leads back (4.3)."""
         for index, node in enumerate(self.graph.nodes):
-            inside = self._behind(node) if node.type != "spontaneous" else ()  # which keeps its data
+            # A spontaneous action keeps its data.
+            inside = self._behind(self.refs[index]) if node.type != "spontaneous" else ()
             back = [
                 p.node for p in node.parents if p.node in inside and Response.RUN in map(p.response, Result)
             ]
@@ -125,7 +150,7 @@ class _Checker:
                 if (
                     known.required
                     and not has_data
-                    and not any(self._gives(p, node, name, known) for p in back)
+                    and not any(self._gives(p, self.refs[index], name, known) for p in back)
                 ):
                     yield Problem(
                         f"actions[{index}].input_parameters.{_tree(name)}",
@@ -134,10 +159,10 @@ class _Checker:
                         "loop_without_data",
                     )
 
-    def _behind(self, node: Node) -> set[NodeRef]:
+    def _behind(self, ref: NodeRef) -> set[NodeRef]:
         """What comes after a node, itself included if a loop leads back to it."""
         found: set[NodeRef] = set()
-        waiting = [node.ref]
+        waiting = [ref]
         while waiting:
             new = self.children.get(waiting.pop(), {}).keys() - found
             found |= new
@@ -145,68 +170,64 @@ class _Checker:
         return found
 
     def _names(self) -> Iterator[Problem]:
-        reserved = {ENTRY.name, EXIT.name}
-        count = Counter(node.ref for node in self.graph.nodes)
-        for index, node in enumerate(self.graph.nodes):
-            path = f"actions[{index}]"
-            if node.name in reserved:
+        for index, (ref, node) in enumerate(zip(self.refs, self.graph.nodes, strict=True)):
+            if node.name in (ENTRY.name, EXIT.name):
+                path = f"actions[{index}].name"
+                yield Problem(path, f"{node.name!r} is reserved", "choose another name", "reserved_name")
+            if self.nodes[ref] is not node:
                 yield Problem(
-                    f"{path}.name", f"{node.name!r} is reserved", "choose another name", "reserved_name"
-                )
-            if self.nodes[node.ref] is not node:
-                yield Problem(
-                    f"{path}.instance_id",
-                    f"there are {count[node.ref]} actions {node.full_name}",
+                    f"actions[{index}].instance_id",
+                    f"there are {self.refs.count(ref)} actions {ref.full_name}",
                     "give each its own instance_id",
                     "duplicate_node",
                 )
 
-    def _relations(self, node: Node, path: str) -> Iterator[Problem]:
+    def _relations(self, node: Node, ref: NodeRef, path: str) -> Iterator[Problem]:
         yield from self._known(node.children, f"{path}.children")
         yield from self._known(node.parents, f"{path}.parents")
         for index, child in enumerate(node.children):
             other = self.nodes.get(child.node)
             if other is None:
                 continue
-            where = f"{path}.children[{index}]"
-            if node.ref not in self.parents[other.ref]:
-                yield _one_sided(where, node, other, "child", "parent")
-            yield from _remap(node, other, child, where)
+            if ref not in self.parents[child.node]:
+                yield _one_sided(f"{path}.children[{index}]", node, other, "child", "parent")
+            if child.remap:
+                yield from _remap(node, other, child, f"{path}.children[{index}]")
         for index, parent in enumerate(node.parents):
             other = self.nodes.get(parent.node)
-            if other is not None and node.ref not in self.children[other.ref]:
+            if other is not None and ref not in self.children[parent.node]:
                 yield _one_sided(f"{path}.parents[{index}]", node, other, "parent", "child")
 
     def _known(self, relations: Sequence[ChildRelation | ParentRelation], path: str) -> Iterator[Problem]:
         """Relations must name nodes that exist, each once."""
         seen: set[NodeRef] = set()
         for index, relation in enumerate(relations):
-            name, where = relation.node.full_name, f"{path}[{index}]"
-            if relation.node not in self.nodes:
-                yield Problem(
-                    where, f"{name} is not among the actions", "add it or drop the relation", "missing_node"
-                )
-            if relation.node in seen:
-                yield Problem(where, f"{name} is named twice", "name it once", "duplicate_relation")
-            seen.add(relation.node)
+            ref = relation.node
+            if ref not in self.nodes:
+                text, remedy = f"{ref.full_name} is not among the actions", "add it or drop the relation"
+                yield Problem(f"{path}[{index}]", text, remedy, "missing_node")
+            if ref in seen:
+                text = f"{ref.full_name} is named twice"
+                yield Problem(f"{path}[{index}]", text, "name it once", "duplicate_relation")
+            seen.add(ref)
 
     def _unreachable(self) -> Iterator[Problem]:
         if not self.graph.entry:  # accepted: such a graph halts at once, and a modify may continue it
             return
-        runs = self._followed(lambda child, came: _can_follow(child, self.nodes, came))
+        runs = self._followed(self.nodes)
         if len(runs) == len(self.nodes):
             return
-        reached = self._followed(lambda child, came: True)
-        runs = self._followed(lambda child, came: _can_follow(child, reached, came))
+        reached = self._followed(())
+        runs = self._followed(reached)
         for index, node in enumerate(self.graph.nodes):
-            if node.ref not in reached:
+            if self.refs[index] not in reached:
                 yield Problem(
                     f"actions[{index}]",
                     f"no way leads from graph_entry to {node.full_name}",
                     "make it a child of another action or an entry",
                     "unreachable_node",
                 )
-            elif node.ref not in runs:
+            elif self.refs[index] not in runs:
                 waits = [p.node for p in node.parents if p.required and p.node in reached - runs]
                 yield Problem(
                     f"actions[{index}].parents",
@@ -215,28 +236,33 @@ class _Checker:
                     "endless_wait",
                 )
 
-    def _followed(self, can: Callable[[Node, Collection[NodeRef]], bool]) -> set[NodeRef]:
-        """What comes to run from the entry on, if `can` says so of each node that was reached."""
+    def _followed(self, waited_for: Collection[NodeRef]) -> set[NodeRef]:
+        """What comes to run from the entry on, if nodes wait only for those parents."""
         came: set[NodeRef] = set()
         waiting = [relation.node for relation in self.graph.entry]
         while waiting:
             ref = waiting.pop()
-            if ref not in came and ref in self.nodes and can(self.nodes[ref], came):
+            node = self.nodes.get(ref)
+            if node is not None and ref not in came and _can_follow(node, waited_for, came):
                 came.add(ref)
-                waiting.extend(child.node for child in self.nodes[ref].children)
+                waiting += [child.node for child in node.children]
         return came
 
-    def _action(self, node: Node, path: str) -> Iterator[Problem]:
+    def _action(self, node: Node, ref: NodeRef, path: str) -> Iterator[Problem]:
         if node.actor and node.actor != self.actor:
+            self.specs.append(None)
             yield from self._other_actor(node, path)
             return
         spec = self.catalogue.match(node) or self.catalogue.get(node.name)
+        self.specs.append(spec)
         if spec is None:
             yield self._unknown(node, path)
             return
-        yield from _parameters(node.input_parameters, spec.inputs, f"{path}.input_parameters", spec)
-        yield from _parameters(node.output_parameters, spec.outputs, f"{path}.output_parameters", spec)
-        yield from self._missing_inputs(node, spec, path)
+        if node.input_parameters or spec.inputs:
+            yield from _parameters(node.input_parameters, spec.inputs, f"{path}.input_parameters", spec)
+            yield from self._missing_inputs(node, ref, spec, path)
+        if node.output_parameters or spec.outputs:
+            yield from _parameters(node.output_parameters, spec.outputs, f"{path}.output_parameters", spec)
         if missing := self.catalogue.missing_capabilities(spec):
             yield Problem(
                 f"{path}.name",
@@ -295,15 +321,15 @@ class _Checker:
         owner = f"{self.actor} has" if self.actor else "there is"
         return Problem(f"{path}.name", f"{owner} no action {node.name!r}", remedy, "unknown_action")
 
-    def _missing_inputs(self, node: Node, spec: ActionSpec, path: str) -> Iterator[Problem]:
+    def _missing_inputs(self, node: Node, ref: NodeRef, spec: ActionSpec, path: str) -> Iterator[Problem]:
         for name, known in spec.inputs.items():
             given = node.input_parameters.get(name)
             if given is None or not known.required or given.has_data or known.has_data:
                 continue
-            entry = self.entries.get(node.ref)
+            entry = self.entries.get(ref)
             if entry is not None and given_name(entry, name) in self.given:
                 continue
-            if not any(self._gives(parent.node, node, name, known) for parent in node.parents):
+            if not any(self._gives(parent.node, ref, name, known) for parent in node.parents):
                 yield Problem(
                     f"{path}.input_parameters.{_tree(name)}",
                     f"{node.full_name} needs {name}, and nobody gives it",
@@ -311,12 +337,12 @@ class _Checker:
                     "missing_input",
                 )
 
-    def _gives(self, parent: NodeRef, node: Node, name: str, wanted: Parameter) -> bool:
-        """Whether the edge from `parent` to `node` carries a value for the input `name`."""
+    def _gives(self, parent: NodeRef, ref: NodeRef, name: str, wanted: Parameter) -> bool:
+        """Whether the edge from `parent` to the node `ref` carries a value for the input `name`."""
         giver = self.nodes.get(parent)
         if giver is None or not wanted.updatable:
             return False
-        relation = self.children[parent].get(node.ref)
+        relation = self.children[parent].get(ref)
         if relation is None:
             return False
         renamed = dict(relation.remap)

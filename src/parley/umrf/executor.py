@@ -21,18 +21,18 @@ from parley.messages.failure import FailureReport
 from parley.umrf.action import RunHandle
 from parley.umrf.admission import check_entry, check_removed, values_to_continue
 from parley.umrf.catalogue import Catalogue
+from parley.umrf.check import resolve
 from parley.umrf.flow import Effect, Flow, FlowNode
 from parley.umrf.graph_index import GraphSpec
-from parley.umrf.model import ENDED, Graph, GraphState, NodeState, Result
+from parley.umrf.model import ENDED, NOTHING, Graph, GraphState, NodeState, Result
 from parley.umrf.node_run import Ended, Inside, NodeRun
-from parley.umrf.other_runs import RemoteRun, run_of
-from parley.umrf.remote import Peers, RemoteEnd
+from parley.umrf.other_runs import RemoteRun, SubgraphRun
+from parley.umrf.remote import Peers, RemoteEnd, RemoteSpec
 from parley.umrf.reports import failure_lines, stop_timed_out_text
-from parley.umrf.resolve import resolve
 from parley.umrf.rounds import Rounds
 from parley.umrf.saved import Later, SavedRun, load, save_frame, save_node
 from parley.umrf.slices import in_slices
-from parley.umrf.transition import NO_FACTS, Announcer, Observer
+from parley.umrf.transition import Announcer, Observer
 
 __all__ = ["STOP_TIMEOUT_S", "GraphRun"]
 
@@ -78,7 +78,7 @@ class GraphRun:
         make_context: Callable[[RunHandle], Any],
         observer: Observer | None = None,
         stop_timeout_s: float = STOP_TIMEOUT_S,
-        parameters: Mapping[str, Any] = NO_FACTS,
+        parameters: Mapping[str, Any] = NOTHING,
         peers: Peers | None = None,
         make_inner: Callable[..., GraphRun] | None = None,
     ) -> None:
@@ -90,17 +90,17 @@ class GraphRun:
         self.peers = peers
         self.on_state: Callable[[GraphState], None] | None = None
         """Told each change of `state`; for whoever waits for this run."""
-        self._clock = clock
+        self.clock = clock
         known = peers.actors if peers is not None else ()
         self._resolve = functools.partial(
             resolve, catalogue=catalogue, actor=actor, known_actors=known, given=parameters.keys()
         )
-        resolved = self._resolve(graph)
-        self._graph, self._flow = resolved.graph, Flow(resolved.graph, resolved.specs)
+        self._graph, specs = self._resolve(graph)
+        self._flow = Flow(self._graph, specs)
         self._flow.give(parameters)
         if parameters:
             check_entry(self.name, self._flow)
-        self._make_context = make_context
+        self.make_context = make_context
         self._announce = Announcer(graph.name, clock, observer)
         self._stop_timeout_s = stop_timeout_s
         self._runs: dict[str, NodeRun] = {}
@@ -228,10 +228,10 @@ class GraphRun:
         if self.state in ENDED or self.state is GraphState.STOPPING:
             text = f"{self.name} is {self.state} and cannot be changed"
             raise self._refusal("graph_ended", text, "start a new graph")
-        resolved = self._resolve(replace(graph, name=self.name))
+        resolved, specs = self._resolve(replace(graph, name=self.name))
         check_removed(self.name, self._active(), {node.full_name for node in graph.nodes})
-        flow = self._flow.replaced(resolved.graph, resolved.specs)
-        return resolved.graph, flow, values_to_continue(self.name, flow, continue_from, self._runs)
+        flow = Flow(resolved, specs, previous=self._flow)
+        return resolved, flow, values_to_continue(self.name, flow, continue_from, self._runs)
 
     async def wait(self) -> Result:
         """Wait until the graph has ended or halted; how it ended."""
@@ -302,52 +302,57 @@ class GraphRun:
             return
         item.last_values, item.skipped = dict(item.values), None
         self._set_node(item, NodeState.RUNNING, cause)
-        run = self._runs[item.name] = run_of(
-            item,
-            self.peers,
-            begin=self._begin_inner,
-            attempt=attempt,
-            on_state=lambda state: self._inner_changed(self._flow.nodes[item.name], state),
-            actor=self.actor,
-            graph_name=self.name,
-            clock=self._clock,
-            on_progress=lambda fraction, text: self._announce.progress(item.node, fraction, text),
-            asked=lambda: self._flow.asks(item.name),
-            on_still=lambda: self._inner_changed(self._flow.nodes[item.name], GraphState.PAUSED),
-        )
-        run.begin(self._make_context, self._run_ended)
+        kind = NodeRun
+        if isinstance(item.spec, GraphSpec):
+            kind = SubgraphRun
+        elif isinstance(item.spec, RemoteSpec) and self.peers is not None:
+            kind = RemoteRun
+        run = self._runs[item.name] = kind(item, self, attempt)
+        run.begin()
 
-    def _begin_inner(self, item: FlowNode, values: Mapping[str, Any]) -> GraphRun:
-        """Run the graph behind `item` under the name of section 1, or go on with what is left of it."""
-        assert isinstance(item.spec, GraphSpec)
-        name = f"{self.name}__{item.node.name}__{item.node.instance_id}"
+    # -- what runs of nodes ask and tell (`Host`) -----------------------------------------------------------
+
+    def asks(self, node: str) -> bool:
+        """See `Flow.asks`."""
+        return self._flow.asks(node)
+
+    def progressed(self, run: NodeRun, fraction: float | None, text: str) -> None:
+        """A node got on."""
+        self._announce.progress(run.item.node, fraction, text)
+
+    def begin_inner(self, run: NodeRun) -> GraphRun:
+        """Run the graph behind a node under the name of section 1, or go on with what is left of it."""
+        assert isinstance(run.spec, GraphSpec)
+        node, graph = run.item.node, run.spec.graph
+        name = f"{self.name}__{node.name}__{node.instance_id}"
         left = self._begun.pop(name, None)
         if left is None:
-            run = self._make_inner(replace(item.spec.graph, name=name), parameters=values)
+            inner = self._make_inner(replace(graph, name=name), parameters=run.values)
         else:
-            run = self._make_inner(left.graph, parameters={})
-        run.outer = self.name
+            inner = self._make_inner(left.graph, parameters={})
+        inner.outer = self.name
         for old in self._left:
             if old.name == name:  # discarded (11.1): what it left behind is stopped
                 old.stop()
         self._left = [old for old in self._left if not old.over]
         if left is None:
-            run.start()
+            inner.start()
         else:
-            run.restore(left)
-            if run.holding:
-                run.resume()
-        return run
+            inner.restore(left)
+            if inner.holding:
+                inner.resume()
+        return inner
 
-    def _inner_changed(self, item: FlowNode, state: GraphState) -> None:
+    def moved(self, node: str, state: GraphState) -> None:
         """A sub-graph or a plain action came to stand still, or goes on."""
+        item = self._flow.nodes[node]
         if state is GraphState.PAUSED and item.state in _MOVING:
             self._set_node(item, NodeState.PAUSED, "pause")
             self._settle()
         elif state is GraphState.RUNNING and item.state in _STILL:
             self._set_node(item, NodeState.RUNNING, "resume")
 
-    def _run_ended(self, run: NodeRun) -> None:
+    def ended(self, run: NodeRun) -> None:
         """An action is over, however: note it, tell it, and go on with what follows."""
         del self._runs[run.node]
         if run.inner is not None and not run.inner.over:
@@ -359,7 +364,7 @@ class GraphRun:
         stopped = item.state is NodeState.STOPPING
         if isinstance(ending, BaseException) and not (stopped and isinstance(ending, asyncio.CancelledError)):
             for text in failure_lines(self.name, item.node, ending, run.last_log):
-                item.note(text, self._clock.unix_ms())
+                item.note(text, self.clock.unix_ms())
         if run.restart_wanted and self.state in (GraphState.RUNNING, GraphState.PAUSED):
             self._set_node(item, NodeState.FINISHED, "restart", Result.ON_STOPPED)
             self._hand_over(item, Result.ON_STOPPED)
@@ -384,7 +389,7 @@ class GraphRun:
         """Begin another attempt of a node that failed, unless there were enough or it would make no sense."""
         if not run.may_repeat(ending) or self.state not in (GraphState.RUNNING, GraphState.PAUSED):
             return False
-        item.note(f"attempt {run.attempt} failed, another one follows", self._clock.unix_ms())
+        item.note(f"attempt {run.attempt} failed, another one follows", self.clock.unix_ms())
         hold = item.state in _STILL or self._holding
         self._run_node(item, "retry", run.attempt + 1)
         if hold:
@@ -398,7 +403,7 @@ class GraphRun:
         result: Result,
         outputs: Mapping[str, Any],
         cause: str,
-        facts: Mapping[str, Any] = NO_FACTS,
+        facts: Mapping[str, Any] = NOTHING,
         *,
         failed: bool = True,
     ) -> None:
@@ -439,7 +444,7 @@ class GraphRun:
     def _stop_timed_out(self, name: str) -> None:
         item = self._flow.nodes[name]
         self._stop_failed = True
-        item.note(stop_timed_out_text(item.node.name, self._stop_timeout_s), self._clock.unix_ms())
+        item.note(stop_timed_out_text(item.node.name, self._stop_timeout_s), self.clock.unix_ms())
         log.error("node did not stop", graph=self.name, node=name)
         self._node_over(item, Result.ON_ERROR, {}, "stop")
 
@@ -497,7 +502,7 @@ class GraphRun:
                     item.skipped = effect.result
                     self._set_node(item, item.state, "bypass", effect.result)
                 case "fail" if not item.active:
-                    item.note(FailureReport(message=effect.message).to_text(), self._clock.unix_ms())
+                    item.note(FailureReport(message=effect.message).to_text(), self.clock.unix_ms())
                     item.outputs = {}
                     self._set_node(item, NodeState.ERROR, cause, Result.ON_ERROR)
                     self._hand_over(item, Result.ON_ERROR)
@@ -553,7 +558,7 @@ class GraphRun:
         state: NodeState,
         cause: str,
         result: Result | None = None,
-        facts: Mapping[str, Any] = NO_FACTS,
+        facts: Mapping[str, Any] = NOTHING,
     ) -> None:
         item.state = state
         item.touch()

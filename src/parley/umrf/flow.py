@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
@@ -21,6 +21,7 @@ from parley.umrf.model import (
     DEFAULT_CONDITIONS,
     ENTRY,
     EXIT,
+    NOTHING,
     ChildRelation,
     Graph,
     LogMessage,
@@ -79,6 +80,8 @@ class Runner:
 class FlowNode:
     """One node of a running graph: its description, matched, and everything that changes."""
 
+    name: str
+    """The full name."""
     node: Node
     spec: ActionSpec
     parents: dict[str, ParentRelation] = field(default_factory=dict)
@@ -88,17 +91,18 @@ class FlowNode:
     state: NodeState = NodeState.UNINITIALIZED
     values: dict[str, Any] = field(default_factory=dict)
     """Inputs that have data now."""
-    transferred: set[str] = field(default_factory=set)
+    transferred: frozenset[str] = frozenset()
     """Those of `values` that came along an edge; they are dropped after the run (4.3)."""
-    last_values: dict[str, Any] = field(default_factory=dict)
+    last_values: Mapping[str, Any] = field(default_factory=lambda: NOTHING)
     """The inputs of the last run, for a run that repeats it."""
-    outputs: dict[str, Any] = field(default_factory=dict)
+    outputs: Mapping[str, Any] = field(default_factory=lambda: NOTHING)
     """Of the last run."""
     began_s: float = -math.inf
     """Robot time at which the last round of a spontaneous node began."""
     received: set[str] = field(default_factory=set)
     """Parents whose edge was seen at least once."""
-    log: deque[LogMessage] = field(default_factory=lambda: deque(maxlen=MAX_LOG_MESSAGES))
+    log: list[LogMessage] = field(default_factory=list)
+    """The newest, at most `MAX_LOG_MESSAGES`; threads add to it."""
     starved: bool = False
     """Whether it was to run (again) and lacked an input."""
     skipped: Result | None = None
@@ -109,13 +113,7 @@ class FlowNode:
     """Whether something changed since it was last saved; whoever saves it takes the mark away."""
     stale: set[str] = field(default_factory=set, kw_only=True, repr=False)
     """Of its flow: full names of nodes that changed since they were last shown."""
-    name: str = field(init=False)
-    """The full name."""
     _shown: Node | None = field(default=None, init=False, repr=False)
-
-    def __post_init__(self) -> None:
-        self.name = self.node.full_name
-        self.stale.add(self.name)
 
     def touch(self) -> None:
         """Something about the node is different now; to be called after each change."""
@@ -171,7 +169,7 @@ class FlowNode:
     def take(self, given: Mapping[str, Any]) -> None:
         """Take over inputs that came along an edge."""
         self.values |= given
-        self.transferred |= given.keys()
+        self.transferred = self.transferred.union(given)
         self.touch()
 
     def see(self, parent: str) -> None:
@@ -182,13 +180,14 @@ class FlowNode:
     def note(self, text: str, unix_ms: int) -> None:
         """Add a log line."""
         self.log.append(LogMessage(unix_ms, text))
+        del self.log[:-MAX_LOG_MESSAGES]
         self.touch()
 
     def drop_transferred(self) -> None:
         """Forget what came along edges, after a run."""
         for name in self.transferred:
             self.values.pop(name, None)
-        self.transferred.clear()
+        self.transferred = frozenset()
         self.touch()
 
 
@@ -202,10 +201,11 @@ class Flow:
 
     Args:
         graph: A checked graph whose inputs are merged with the descriptors.
-        specs: What runs each node, by full name.
+        specs: What runs each of its nodes.
+        previous: Another form of it (11.5), of which nodes that stay keep state, data and seen edges.
     """
 
-    def __init__(self, graph: Graph, specs: Mapping[str, ActionSpec], previous: Flow | None = None) -> None:
+    def __init__(self, graph: Graph, specs: Sequence[ActionSpec], previous: Flow | None = None) -> None:
         self.entry = graph.entry
         self.exit = {relation.node.full_name: relation for relation in graph.exit}
         self.started: bool = previous is not None and previous.started
@@ -213,12 +213,11 @@ class Flow:
         self.nodes: dict[str, FlowNode] = {}
         self._stale: set[str] = set()
         self._shown: dict[str, Node] = {}
-        for node in graph.nodes:
-            kept = old.get(node.full_name)
-            self.nodes[node.full_name] = (
-                _new(node, specs[node.full_name], self._stale)
-                if kept is None
-                else _carry(kept, node, self._stale)
+        for node, spec in zip(graph.nodes, specs, strict=True):
+            name = node.full_name
+            kept = old.get(name)
+            self.nodes[name] = (
+                _new(name, node, spec, self._stale) if kept is None else _carry(kept, node, self._stale)
             )
         for relation in self.entry:
             item = self.nodes[relation.node.full_name]
@@ -238,10 +237,6 @@ class Flow:
             self.exit_values |= previous.exit_values
         outputs = [self.nodes[name].node.output_parameters for name in self.exit]
         self.exit_needs: Mapping[str, Parameter] = next((item for item in reversed(outputs) if item), {})
-
-    def replaced(self, graph: Graph, specs: Mapping[str, ActionSpec]) -> Flow:
-        """Another form of this graph (11.5) in which nodes that stay keep state, data and seen edges."""
-        return Flow(graph, specs, previous=self)
 
     def give(self, parameters: Mapping[str, Any]) -> None:
         """Copy start parameters to those inputs of the entry actions that have no value (6)."""
@@ -416,9 +411,11 @@ class Flow:
         return all(name in self.exit_received for name, edge in self.exit.items() if edge.required)
 
 
-def _new(node: Node, spec: ActionSpec, stale: set[str]) -> FlowNode:
+def _new(name: str, node: Node, spec: ActionSpec, stale: set[str]) -> FlowNode:
     values = {name: item.value for name, item in node.input_parameters.items() if item.has_data}
+    stale.add(name)
     return FlowNode(
+        name=name,
         node=node,
         spec=spec,
         parents=_parents(node),
@@ -448,7 +445,6 @@ def _carry(kept: FlowNode, node: Node, stale: set[str]) -> FlowNode:
         parents=parents,
         children=node.children,
         values=dict(kept.values),
-        transferred=set(kept.transferred),
         received=kept.received & parents.keys() | entered,
         stale=stale,
     )
@@ -456,7 +452,7 @@ def _carry(kept: FlowNode, node: Node, stale: set[str]) -> FlowNode:
         own = kept.node.input_parameters.get(name)
         if own is not None and given.has_data and _accepts(own, given.type, given.value):
             carried.values[name] = given.value
-            carried.transferred.discard(name)
+            carried.transferred -= {name}
     carried.touch()
     return carried
 

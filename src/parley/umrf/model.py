@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from types import MappingProxyType
 from typing import Any, Final, NamedTuple
 
 from parley.messages.pvf import Parameter
@@ -19,6 +20,7 @@ __all__ = [
     "ENDED",
     "ENTRY",
     "EXIT",
+    "NOTHING",
     "ChildRelation",
     "Graph",
     "GraphState",
@@ -30,6 +32,10 @@ __all__ = [
     "Response",
     "Result",
 ]
+
+
+NOTHING: Final[Mapping[str, Any]] = MappingProxyType({})
+"""No values."""
 
 
 class NodeState(StrEnum):

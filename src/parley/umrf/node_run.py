@@ -16,12 +16,13 @@ from parley.umrf.action import ActionSpec, Outcome, RunHandle, bind_inputs, outc
 from parley.umrf.flow import FlowNode
 from parley.umrf.model import GraphState, Result
 from parley.umrf.motion import Motion
+from parley.umrf.remote import Peers
 from parley.umrf.reports import harmless
 from parley.umrf.text import clean_text
 from parley.umrf.threads import in_thread
 from parley.umrf.time_limit import PausableTime, within
 
-__all__ = ["Ended", "Inside", "NodeRun"]
+__all__ = ["Ended", "Host", "Inside", "NodeRun"]
 
 PROGRESS_INTERVAL_S: Final = 0.1
 ROUND_S: Final = 0.01
@@ -41,6 +42,10 @@ _FINAL: Final = frozenset(
 THREAD_GRACE_S: Final = 2.0
 """Wall time that a plain action has to notice that its time is over, before its thread is abandoned."""
 
+
+_GOING: Final = asyncio.Event()
+_GOING.set()
+"""Of all runs that were never paused."""
 
 T = TypeVar("T")
 
@@ -106,34 +111,49 @@ class Inside(Protocol):
         ...
 
 
+class Host(Protocol):
+    """What a run needs to know of the graph that it is part of; a `GraphRun`. All is called on the loop."""
+
+    name: str
+    actor: str
+    clock: Clock
+    """Robot time for actions; progress is spaced by wall time."""
+    peers: Peers | None
+    make_context: Callable[[RunHandle], Any]
+
+    def asks(self, node: str) -> bool:
+        """Whether what follows depends on whether that node ends true or false, as the graph is now."""
+        ...
+
+    def progressed(self, run: NodeRun, fraction: float | None, text: str) -> None:
+        """Told how far a run is, at most every 100 ms."""
+        ...
+
+    def moved(self, node: str, state: GraphState) -> None:
+        """Told when the run of that node has come to stand still, and when it goes on by itself."""
+        ...
+
+    def ended(self, run: NodeRun) -> None:
+        """Told once a run is over, however it ended."""
+        ...
+
+    def begin_inner(self, run: NodeRun) -> Inside:
+        """Run the graph behind a node, with its inputs."""
+        ...
+
+
 class NodeRun:
     """A run that goes on; what the action sees of it is `parley.umrf.action.RunHandle`.
 
     Args:
         item: The node; its inputs are read when the run begins.
-        actor: The robot.
-        graph_name: The graph it is part of.
-        clock: Robot time for the action; progress is spaced by wall time.
-        on_progress: Gets fraction and text, on the loop, at most every 100 ms.
-        asked: Whether what follows depends on whether it ends true or false, as the graph is now.
+        host: The graph it is part of.
         attempt: Which attempt of the node it is, from 1.
-        on_still: Told on the loop when a plain action has seen that it is paused.
     """
 
-    def __init__(
-        self,
-        item: FlowNode,
-        *,
-        actor: str,
-        graph_name: str,
-        clock: Clock,
-        on_progress: Callable[[float | None, str], None],
-        asked: Callable[[], bool],
-        attempt: int = 1,
-        on_still: Callable[[], None] = lambda: None,
-    ) -> None:
-        self.attempt = attempt
-        self.actor, self.graph_name, self.node, self.clock = actor, graph_name, item.name, clock
+    def __init__(self, item: FlowNode, host: Host, attempt: int = 1) -> None:
+        self.attempt, self._host = attempt, host
+        self.actor, self.graph_name, self.node, self.clock = host.actor, host.name, item.name, host.clock
         self.motion = Motion(item.name)
         self.inner: Inside | None = None
         """The graph that runs in its place, once it has begun."""
@@ -141,12 +161,10 @@ class NodeRun:
         self.last_log = ""
         self.item = item
         """The node; another object once the graph is modified."""
-        self._on_progress, self._asked, self._on_still = on_progress, asked, on_still
         self._values = dict(item.values)
         self._loop = asyncio.get_running_loop()
         self._thread = threading.get_ident()
-        self._going = asyncio.Event()
-        self._going.set()
+        self._going = _GOING
         self._paused = self._looked = self._stopping = self._threaded = self._over = False
         self._begun = self._in_thread = False
         self._progress: tuple[float | None, str] | None = None
@@ -155,27 +173,27 @@ class NodeRun:
         self._time: PausableTime | None = None
         self._task: asyncio.Task[Ended] | None = None
 
-    def begin(self, make_context: Callable[[RunHandle], Any], ended: Callable[[NodeRun], None]) -> None:
-        """Start; `ended` is called on the loop once it is over, however it ends."""
-        work = self._next_round if self.item.spontaneous else self._call
-        self._task = asyncio.create_task(work(make_context), name=f"{self.graph_name}/{self.node}")
-        self._task.add_done_callback(lambda _: self._end(ended))
+    def begin(self) -> None:
+        """Start; the host is told of the end."""
+        work = self._next_round() if self.item.spontaneous else self._call()
+        self._task = self._loop.create_task(work, name=f"{self.graph_name}/{self.node}")
+        self._task.add_done_callback(self._end)
 
-    async def _next_round(self, make_context: Callable[[RunHandle], Any]) -> Ended:
+    async def _next_round(self) -> Ended:
         early_s = self.item.began_s + ROUND_S - self.clock.now_s()
         if early_s > 0:
             await self.clock.sleep(early_s)
         self.item.began_s = self.clock.now_s()
-        return await self._call(make_context)
+        return await self._call()
 
-    async def _call(self, make_context: Callable[[RunHandle], Any]) -> Ended:
+    async def _call(self) -> Ended:
         item = self.item
         if item.spec.pausable or self.attempt > 1:
-            await self._going.wait()  # nothing begins during a pause
+            await self.wait_while_paused()  # nothing begins during a pause
         self._begun = True
         run = item.runner.get()
         arguments = bind_inputs(item.spec, self._values)
-        context = make_context(self)
+        context = self._host.make_context(self)
         if inspect.iscoroutinefunction(run):
             work = run(context, **arguments)
         else:
@@ -206,7 +224,7 @@ class NodeRun:
             name=spec.name,
             clock=self.clock,
             time=self._time,
-            going=self._going.wait,
+            going=self.wait_while_paused,
             on_expiry=self._expired,
         )
 
@@ -215,13 +233,13 @@ class NodeRun:
         self.motion.revoke()
         return THREAD_GRACE_S if self._threaded else 0.0
 
-    def _end(self, ended: Callable[[NodeRun], None]) -> None:
+    def _end(self, _: asyncio.Task[Ended]) -> None:
         self._over = True
         self.motion.revoke()  # what it may have left behind must not drive
         for timer in (self._progress_timer, self._stop_timer):
             if timer is not None:
                 timer.cancel()
-        ended(self)
+        self._host.ended(self)
         self._task = None  # what it raised knows its frames, and they know this run: a circle
 
     def ending(self) -> Ended | BaseException:
@@ -267,7 +285,8 @@ class NodeRun:
         """Ask the action to stand still; its drive does so in any case."""
         self._looked, self._paused = False, True
         self.motion.pause()
-        self._going.clear()
+        if self._going.is_set():
+            self._going = asyncio.Event()
         if self._time is not None:
             self._time.pause()
 
@@ -328,7 +347,7 @@ class NodeRun:
             return
         (fraction, text), self._progress = self._progress, None
         self._progress_timer = self._loop.call_later(PROGRESS_INTERVAL_S, self._send_progress)
-        self._on_progress(fraction, text)
+        self._host.progressed(self, fraction, text)
 
     @property
     def paused(self) -> bool:
@@ -340,7 +359,7 @@ class NodeRun:
 
     def _has_looked(self) -> None:
         if self._paused and self.stands_still and not self._over:
-            self._on_still()
+            self._host.moved(self.node, GraphState.PAUSED)
 
     async def wait_while_paused(self) -> None:
         """See `RunHandle.wait_while_paused`."""
@@ -354,7 +373,7 @@ class NodeRun:
     @property
     def result_asked(self) -> bool:
         """See `RunHandle.result_asked`."""
-        return self._asked()
+        return self._host.asks(self.node)
 
 
 def _share(told: Any) -> float | None:

@@ -3,49 +3,31 @@
 from __future__ import annotations
 
 import asyncio
+import functools
 import math
-from collections.abc import Callable, Mapping
-from typing import Any, Final
+from collections.abc import Callable
+from typing import Final
 
 from parley.errors import ActionFailure, FailureCode
 from parley.messages.failure import FailureReport
-from parley.umrf.action import RunHandle
-from parley.umrf.flow import FlowNode
-from parley.umrf.graph_index import GraphSpec
 from parley.umrf.model import GraphState, Result
-from parley.umrf.node_run import Ended, Inside, NodeRun
-from parley.umrf.remote import Peers, RemoteSpec
+from parley.umrf.node_run import Ended, NodeRun
 
-__all__ = ["RemoteRun", "SubgraphRun", "run_of"]
+__all__ = ["RemoteRun", "SubgraphRun"]
 
 _MARGIN_S: Final = 0.1
 """A sub-graph has so much longer to stop than its own nodes, so that it can say itself what did not."""
 
 
 class SubgraphRun(NodeRun):
-    """The node waits for an indexed graph that runs in its place.
+    """The node waits for an indexed graph that runs in its place."""
 
-    Args:
-        begin: Makes and starts that run with the node's inputs.
-        on_state: Told when the inner graph stands still and when it goes on.
-        **rest: See `NodeRun`.
-    """
+    _timed_out: Callable[[], None] | None = None
 
-    def __init__(
-        self,
-        *,
-        begin: Callable[[FlowNode, Mapping[str, Any]], Inside],
-        on_state: Callable[[GraphState], None],
-        **rest: Any,
-    ) -> None:
-        super().__init__(**rest)
-        self._begin, self._on_state = begin, on_state
-        self._timed_out: Callable[[], None] | None = None
-
-    async def _call(self, make_context: Callable[[RunHandle], Any]) -> Ended:
+    async def _call(self) -> Ended:
         await self.wait_while_paused()
-        inner = self.inner = self._begin(self.item, self._values)
-        inner.on_state = self._on_state
+        inner = self.inner = self._host.begin_inner(self)
+        inner.on_state = functools.partial(self._host.moved, self.node)
         try:
             result = await self._limited(inner.wait())
         finally:
@@ -101,19 +83,12 @@ class SubgraphRun(NodeRun):
 
 
 class RemoteRun(NodeRun):
-    """The node waits until the engine of its actor says how it ended.
+    """The node waits until the engine of its actor says how it ended."""
 
-    Args:
-        peers: Who says so.
-        **rest: See `NodeRun`.
-    """
-
-    def __init__(self, *, peers: Peers, **rest: Any) -> None:
-        super().__init__(**rest)
-        self._peers = peers
-
-    async def _call(self, make_context: Callable[[RunHandle], Any]) -> Ended:
-        end = await self._peers.end_of(self.graph_name, self.item.node)
+    async def _call(self) -> Ended:
+        peers = self._host.peers
+        assert peers is not None
+        end = await peers.end_of(self.graph_name, self.item.node)
         if end.result is Result.ON_ERROR:
             report = FailureReport.parse(end.message)
             code = report.code if end.message else FailureCode.INTERNAL
@@ -138,27 +113,3 @@ class RemoteRun(NodeRun):
         task.cancel()
         await asyncio.wait([task])
         return True
-
-
-def run_of(
-    item: FlowNode,
-    peers: Peers | None,
-    *,
-    begin: Callable[[FlowNode, Mapping[str, Any]], Inside],
-    on_state: Callable[[GraphState], None],
-    **rest: Any,
-) -> NodeRun:
-    """What carries out `item`: an action of this actor, a sub-graph, or another actor.
-
-    Args:
-        item: The node.
-        peers: The other actors, if there are any.
-        begin: See `SubgraphRun`.
-        on_state: See `SubgraphRun`.
-        **rest: See `NodeRun`.
-    """
-    if isinstance(item.spec, GraphSpec):
-        return SubgraphRun(begin=begin, on_state=on_state, item=item, **rest)
-    if isinstance(item.spec, RemoteSpec) and peers is not None:
-        return RemoteRun(peers=peers, item=item, **rest)
-    return NodeRun(item, **rest)

@@ -209,11 +209,10 @@ def _load_flow(flow: Flow, saved: SavedRun) -> None:
 def _load_node(item: FlowNode, kept: Mapping[str, Any]) -> None:
     item.state = NodeState(kept["state"])
     item.values = dict(kept.get("values", {}))
-    item.transferred = set(kept.get("transferred", ()))
+    item.transferred = frozenset(kept.get("transferred", ()))
     item.last_values = dict(kept.get("last", {}))
     item.outputs = dict(kept.get("outputs", {}))
     item.received = set(kept.get("received", ()))
     item.skipped = Result(kept["skipped"]) if "skipped" in kept else None
-    item.log.clear()
-    item.log.extend(LogMessage(timestamp, message) for timestamp, message in kept.get("log", ()))
+    item.log[:] = (LogMessage(timestamp, message) for timestamp, message in kept.get("log", ()))
     item.touch()

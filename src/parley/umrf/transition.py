@@ -3,26 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from types import MappingProxyType
-from typing import Any, Final, Literal
+from typing import Any, Literal, NamedTuple
 
 import structlog
 
 from parley.clock import Clock
 from parley.messages.pvf import Parameter, native_type
 from parley.umrf.flow import FlowNode
-from parley.umrf.model import GraphState, Node, NodeState, Result
+from parley.umrf.model import NOTHING, GraphState, Node, NodeState, Result
 from parley.umrf.text import clean_text
 
-__all__ = ["NO_FACTS", "Announcer", "Observer", "Transition"]
+__all__ = ["Announcer", "Observer", "Transition"]
 
 log = structlog.get_logger(__name__)
 
 
-@dataclass(frozen=True, slots=True)
-class Transition:
-    """One change of a graph or of one of its nodes, or a sign of progress."""
+class Transition(NamedTuple):
+    """One change of a graph or of one of its nodes, or a sign of progress; a tuple as very many are made."""
 
     sequence: int
     """From 0, per run of a graph."""
@@ -38,7 +35,7 @@ class Transition:
     (taken over from a process that was killed)."""
     result: Result | None = None
     """How a node or the graph ended."""
-    outputs: Mapping[str, Parameter] = field(default_factory=dict)
+    outputs: Mapping[str, Parameter] = NOTHING
     """Of a node that ended, by flat name, with values."""
     message: str = ""
     """Newest log line of a node that failed; why a graph halted."""
@@ -48,8 +45,6 @@ class Transition:
     robot_time_s: float = 0.0
     unix_ms: int = 0
 
-
-NO_FACTS: Final[Mapping[str, Any]] = MappingProxyType({})
 
 Observer = Callable[[Transition], None]
 """Only looks; called on the loop, at once, in order."""
@@ -71,7 +66,7 @@ class Announcer:
         item: FlowNode,
         cause: str,
         result: Result | None = None,
-        facts: Mapping[str, Any] = NO_FACTS,
+        facts: Mapping[str, Any] = NOTHING,
     ) -> None:
         """A node has got the state it has now.
 
@@ -81,8 +76,10 @@ class Announcer:
             result: How it ended, if it did.
             facts: What it tells of its end besides its outputs, by flat name.
         """
-        outputs = item.given_outputs() if cause == "run" else {}
-        outputs |= {name: Parameter(native_type(value), value) for name, value in facts.items()}
+        outputs = item.given_outputs() if cause == "run" else NOTHING
+        if facts:
+            told = {name: Parameter(native_type(value), value) for name, value in facts.items()}
+            outputs = {**outputs, **told}
         self._tell(
             "node",
             state=item.state.value,
