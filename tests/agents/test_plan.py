@@ -22,6 +22,7 @@ from parley.agents.planner.effects import (
     StopGraph,
 )
 from parley.agents.planner.plan import KEEP_DONE, TargetPlan
+from parley.agents.planner.steps import with_values
 from parley.errors import FailureCode
 from parley.messages.chat import ActionCall, Flow, SystemCommand
 from parley.messages.failure import FailureReport
@@ -648,3 +649,28 @@ def test_steps_are_put_into_words_anew_when_it_comes_to_be_known_what_a_robot_ca
     assert label() == "Look at “box”"
     can.clear()
     assert label() == "Look at “box”", "a robot that is gone for a moment can do what it could"
+
+
+def test_a_way_is_called_by_what_was_looked_up_also_when_it_is_tried_again(
+    plan: TargetPlan, engine: Engine
+) -> None:
+    axes = ("pose::position::x", "pose::position::y")
+    where = {axis: Parameter("number") for axis in axes}
+    search = find("box").model_copy(update={"output_parameters": where})
+    way = drive().model_copy(update={"input_parameters": where})
+    numbers = dict.fromkeys(axes, "number")
+    can = (
+        ActionInfo(name="Find", inputs={"target": "string"}, outputs=numbers, effects=("locates",)),
+        ActionInfo(name="Drive", inputs=numbers, label="Go to {place}", effects=("moves",)),
+    )
+    board, approvals = PlanBoard(lambda _: can), Approvals()
+    engine.take(list(plan.append([search, way], "")))
+    engine.report()
+    engine.finish(*((axis, 4.5) for axis in axes))
+    engine.fail()
+    engine.take(list(plan.correct([with_values(way, dict.fromkeys(axes, 4.5))])))
+    board.show(plan, approvals)
+    assert [step.label for step in board.shown[0].steps][-1] == "Go to “box”"
+    plan.steps[-1].call = with_values(way, dict.fromkeys(axes, 7.0))
+    board.show(plan, approvals)
+    assert [step.label for step in board.shown[0].steps][-1] == "Go to “x 7.0 m, y 7.0 m”"

@@ -180,6 +180,10 @@ async def test_a_drive_stands_while_a_zone_before_it_is_asked_about(answer: str)
             await it.observer.until(lambda: bool(it.observer.failures), timeout_s=20)
             assert it.observer.failures[0].code == "forbidden"
             assert it.farthest_m < 4.25 - it.system.robots["A"].radius_m
+            await it.question()
+            it.observer.say("try again", "A", answer=True)
+            await it.observer.until(lambda: "waiting here" in it.observer.said[-1].message, timeout_s=20)
+            assert "must not go" in it.observer.said[-2].message
 
 
 async def test_a_rule_that_nobody_had_agreed_to_at_the_end_of_a_process_is_told_by_the_next(

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 
 from parley.agents.planner.plan import TargetPlan
-from parley.agents.planner.steps import Step
+from parley.agents.planner.steps import Step, without_given
 from parley.gate.cards import for_next, labels_of
 from parley.gate.ruling import Policy
 from parley.messages.chat import SystemCommand
@@ -127,7 +127,7 @@ class PlanBoard:
         changes: dict[str, object] = {
             "policy": approvals.policy(plan.target), "revision": revision, "held_by": held_by,
         }  # fmt: skip
-        update = self._labelled(plan.update(), before)
+        update = self._labelled(plan, before)
         changes["waits"] = tuple(proposal.id for proposal in approvals.of(plan.target))
         if changes["waits"] and update.state == "idle":
             changes["state"] = "awaiting_approval"
@@ -142,8 +142,9 @@ class PlanBoard:
             self._free_since[plan.target] = update.revision
         return update
 
-    def _labelled(self, update: PlanUpdate, before: PlanUpdate | None) -> PlanUpdate:
-        """With what each step does in our words; worked out anew only where the steps are others."""
+    def _labelled(self, plan: TargetPlan, before: PlanUpdate | None) -> PlanUpdate:
+        """The plan with what each step does in our words; worked out anew only where the steps are others."""
+        update = plan.update()
         calls = [step.action for step in update.steps]
         catalogue = self._catalogue(update.target)
         same = before is not None and calls == [step.action for step in before.steps]
@@ -151,7 +152,7 @@ class PlanBoard:
             told = [{"label": step.label, "for_next": step.for_next} for step in before.steps]
         else:
             self._known[update.target] = catalogue
-            labels = labels_of(calls, catalogue, self._objects(update.target))
+            labels = labels_of(without_given(plan.steps, calls), catalogue, self._objects(update.target))
             pairs = zip(labels, for_next(calls, catalogue), strict=True)
             told = [{"label": str(text), "for_next": hidden} for text, hidden in pairs]
         steps = zip(update.steps, told, strict=True)

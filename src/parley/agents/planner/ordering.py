@@ -209,6 +209,7 @@ class Ordering:
         calls = self._plans.accept(plan, order.queue, correcting=not clears)
         if calls and judgement is not None and judgement.forbidden:
             self._forbid(plan, order, judgement)
+            self._plans.say(plan.target, orders.WAITING, "info")
             calls = None
         if calls is None:
             self._plans.send(plan, plan.give_up())

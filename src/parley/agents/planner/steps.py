@@ -170,6 +170,20 @@ def with_values(call: ActionCall, values: dict[str, Any]) -> ActionCall:
     return call.model_copy(update={"input_parameters": inputs})
 
 
+def without_given(steps: Sequence[Step], calls: Sequence[ActionCall]) -> list[ActionCall]:
+    """`calls` of `steps` without values that earlier steps gave: people call a way by what was looked up."""
+    known: dict[str, Any] = {}
+    found: list[ActionCall] = []
+    for step, call in zip(steps, calls, strict=True):
+        inputs = {
+            name: parameter.with_value(None) if known.get(name, ...) == parameter.value else parameter
+            for name, parameter in call.input_parameters.items()
+        }
+        found.append(call.model_copy(update={"input_parameters": inputs}))
+        _take(known, step)
+    return found
+
+
 def known_outputs(steps: Iterable[Step]) -> dict[str, Any]:
     """What `steps` gave: of each name what its last giver did, if that is known."""
     known: dict[str, Any] = {}

@@ -187,7 +187,8 @@ class Repairer:
                 made = _solved(situation, "I go on without it.", ())
             case "done":
                 over = situation.code in _HELPED
-                made = _solved(situation, "Thank you. I go on.", () if over else again)
+                said = "I try again." if situation.code is FailureCode.FORBIDDEN else "Thank you. I go on."
+                made = _solved(situation, said, () if over else again)
             case _:
                 made = _solved(situation, "I try again.", again)
         if unclear:
