@@ -335,7 +335,7 @@ parents = st.builds(ParentRelation, refs, st.booleans(), conditions)
 remaps = st.dictionaries(names, names, max_size=2).map(lambda pairs: tuple(pairs.items()))
 children = st.builds(ChildRelation, refs, remaps)
 nodes = st.builds(
-    Node,
+    lambda *given: Node(*given),
     names,
     st.integers(0, 65535),
     names,

@@ -147,21 +147,10 @@ class FlowNode:
         """The node as it is now, with the data that is there (4.3); the same object until it changes."""
         if self._shown is None:
             node = self.node
-            self._shown = Node(  # done for each change of each node, and `replace` takes three times as long
-                name=node.name,
-                instance_id=node.instance_id,
-                type=node.type,
-                actor=node.actor,
-                description=node.description,
+            self._shown = node._replace(
                 state=self.state,
                 input_parameters=_valued(node.input_parameters, self.values),
-                output_parameters=node.output_parameters,
-                parents=node.parents,
-                children=node.children,
-                gui_attributes=node.gui_attributes,
                 messages=tuple(self.log),
-                retries=node.retries,
-                timeout_s=node.timeout_s,
                 skipped=self.skipped,
             )
         return self._shown
@@ -435,8 +424,7 @@ def _carry(kept: FlowNode, node: Node, stale: set[str]) -> FlowNode:
     parents, entered = _parents(node), {ENTRY.full_name} & kept.received
     carried = replace(
         kept,
-        node=replace(
-            kept.node,
+        node=kept.node._replace(
             parents=node.parents,
             children=node.children,
             retries=node.retries,

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import fields, replace
+from dataclasses import replace
 from json.encoder import encode_basestring
 from operator import attrgetter
 from typing import Any, Final
@@ -188,7 +188,7 @@ def _node_text(node: Node, known: tuple[Node, str] | None) -> str:
     return _lay_out_node(node)
 
 
-_BUT_STATE: Final = attrgetter(*(item.name for item in fields(Node) if item.name != "state"))
+_BUT_STATE: Final = attrgetter(*(name for name in Node._fields if name != "state"))
 
 _LINE: Final = "\n            "
 """What begins a line of a node's own keys in a published graph."""

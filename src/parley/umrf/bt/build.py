@@ -182,8 +182,7 @@ class _Builder:
                 self._refuse("join_mixed", Leaf(child))
         remaps = _Data(nodes, parents, self._links, self._refuse).remaps(starts(shape))
         linked = tuple(
-            replace(
-                node,
+            node._replace(
                 parents=tuple(_relation(parent, edge) for parent, edge in parents[ref].items()),
                 children=tuple(
                     ChildRelation(child, remaps.get((ref, child), ())) for child in self._edges.get(ref, {})
