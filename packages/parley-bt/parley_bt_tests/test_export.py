@@ -12,11 +12,11 @@ import pytest
 
 from parley.errors import GraphRefusedError
 from parley.messages.pvf import Parameter
-from parley.umrf.bt import EXPORT_REASONS, export_tree
-from parley.umrf.bt.shape import Fallback, ForceSuccess, Inverter, Leaf, Parallel, Retry, Shape
-from parley.umrf.bt.shape import Sequence as Row
-from parley.umrf.bt.structure import structure
 from parley.umrf.model import ChildRelation, Graph, NodeRef, Response, Result
+from parley_bt import EXPORT_REASONS, export_tree
+from parley_bt.shape import Fallback, ForceSuccess, Inverter, Leaf, Parallel, Retry, Shape
+from parley_bt.shape import Sequence as Row
+from parley_bt.structure import structure
 
 from .format_rules import violations
 from .graphs import ALWAYS, DEFAULT, RECOVER, STRICT, graph
