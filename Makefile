@@ -130,5 +130,5 @@ $(VENV)/.runtime: $(VENV)/.pip pyproject.toml constraints.txt
 
 $(VENV)/.dev: $(VENV)/.runtime
 	@echo "Installing what its tests and checks need"
-	@$(PIP) install --quiet -c constraints.txt --group dev
+	@$(PIP) install --quiet -c constraints.txt --group dev -e packages/parley-bt
 	@touch $@

@@ -1,8 +1,9 @@
-"""`parley graph show` and `parley graph convert`."""
+"""`parley graph` on files."""
 
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -50,48 +51,23 @@ def test_what_is_shown_can_go_to_a_file(file: Path) -> None:
     assert out.read_text(encoding="utf-8") == parley("show", file, "--format", "svg").stdout
 
 
-def test_a_graph_goes_to_a_tree_and_back(file: Path) -> None:
-    tree, back = file.parent / "two.xml", file.parent / "back.json"
-    assert parley("convert", file, "--to", "btcpp", "--out", tree).exit_code == 0
-    assert '<Action ID="A" name="A_0" on_false="SUCCESS" />' in tree.read_text(encoding="utf-8")
-    assert parley("convert", tree, "--to", "umrf", "--out", back).exit_code == 0
-    again = parley("convert", back, "--to", "btcpp")
-    assert again.stdout == tree.read_text(encoding="utf-8")
+def test_converting_says_what_to_install(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "parley_bt", None)
+    refused = parley("convert", file, "--to", "btcpp")
+    assert isinstance(refused.exception, ConfigError), "which ends the process with 2"
+    assert "pip install parley-bt" in str(refused.exception)
 
 
-def test_what_cannot_be_converted_is_refused_with_reasons_and_writes_nothing(file: Path) -> None:
-    file.write_text(json.dumps(GRAPH).replace('"sync"', '"spontaneous"'), encoding="utf-8")
-    out = file.parent / "two.xml"
-    refused = parley("convert", file, "--to", "btcpp", "--out", out, "--json")
-    assert refused.exit_code == 1
-    assert [json.loads(line)["code"] for line in refused.stdout.splitlines()] == [
-        "spontaneous",
-        "spontaneous",
-    ]
-    assert not out.exists()
-
-
-def test_a_tree_that_cannot_be_imported_is_refused_with_its_line(file: Path) -> None:
-    tree = file.parent / "tree.xml"
-    tree.write_text(
-        '<root BTCPP_format="4"><BehaviorTree>\n<Switch2/></BehaviorTree></root>', encoding="utf-8"
-    )
-    refused = parley("convert", tree, "--to", "umrf")
-    assert refused.exit_code == 1
-    assert refused.stderr.startswith("line 2, <Switch2>: ")
-    assert refused.stdout == "", "where the converted graph would stand"
-
-
-@pytest.mark.parametrize("command", [("run",), ("show",), ("check",), ("convert", "--to", "btcpp")])
+@pytest.mark.parametrize("command", ["run", "show", "check"])
 def test_what_is_no_graph_is_refused_and_what_is_not_there_is_another_matter(
-    file: Path, command: tuple[str, ...]
+    file: Path, command: str
 ) -> None:
     broken = file.parent / "broken.json"
     broken.write_text("{", encoding="utf-8")
-    refused = parley(command[0], broken, *command[1:])
+    refused = parley(command, broken)
     assert refused.exit_code == 1
     assert "not valid JSON" in refused.output
-    missing = parley(command[0], file.parent / "missing.json", *command[1:])
+    missing = parley(command, file.parent / "missing.json")
     assert isinstance(missing.exception, ConfigError), "which ends the process with 2"
 
 
@@ -143,6 +119,4 @@ def test_python_actions_of_a_folder_count_and_broken_ones_are_told(file: Path) -
 
 
 def test_a_file_that_is_not_there_is_an_error_of_the_command(tmp_path: Path) -> None:
-    for command in (("show",), ("convert", "--to", "umrf"), ("convert", "--to", "btcpp")):
-        failed = parley(command[0], tmp_path / "none.json", *command[1:])
-        assert isinstance(failed.exception, ParleyError)
+    assert isinstance(parley("show", tmp_path / "none.json").exception, ParleyError)

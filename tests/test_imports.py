@@ -202,12 +202,6 @@ def test_modules_do_not_import_each_other_in_a_circle() -> None:
     TopologicalSorter({module_name(path): loaded_by(path, modules) for path in paths}).prepare()
 
 
-def test_behaviour_trees_are_loaded_by_nobody_who_does_not_convert_one() -> None:
-    others = [path for path in sorted(SOURCE.rglob("*.py")) if path.parent.name != "bt"]
-    modules = {"parley.umrf", "parley.umrf.bt"}
-    assert [path for path in others if "parley.umrf.bt" in loaded_by(path, modules)] == []
-
-
 def test_an_upward_import_would_be_found() -> None:
     found = Import("messages/chat.py", 1, "parley.agents.base")
     assert HEIGHT[found.imported_room] > HEIGHT[found.room]

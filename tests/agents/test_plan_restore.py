@@ -24,7 +24,7 @@ def was(states: list[str], outputs: dict[str, dict[str, Any]]) -> Interrupted:
         )
     )
     nodes = tuple(
-        replace(item, state=NodeState(state)) for item, state in zip(graph.nodes, states, strict=True)
+        item._replace(state=NodeState(state)) for item, state in zip(graph.nodes, states, strict=True)
     )
     return Interrupted("A", replace(graph, nodes=nodes), 0, outputs)
 
@@ -48,7 +48,7 @@ def test_a_giver_whose_outputs_were_lost_is_done_again() -> None:
 def test_what_is_no_sequence_is_named_and_not_gone_on_with() -> None:
     left = was(["RUNNING", "UNINITIALIZED", "UNINITIALIZED"], {})
     first, *rest = left.graph.nodes
-    split = replace(left, graph=replace(left.graph, nodes=(replace(first, children=()), *rest)))
+    split = replace(left, graph=replace(left.graph, nodes=(first._replace(children=()), *rest)))
     assert restored_steps(split) == []
     assert "carry on" not in interruption_text(split, [])
 

@@ -12,7 +12,7 @@ import pytest
 from parley.errors import ActionFailure, FailureCode, GraphRefusedError
 from parley.umrf.action import RunHandle, action
 from parley.umrf.catalogue import Catalogue
-from parley.umrf.io import graph_to_json, read_graph, write_graph
+from parley.umrf.io import read_graph, write_graph
 from parley.umrf.model import Result
 
 from .spec_actions import CATALOGUE, chain, node
@@ -179,7 +179,7 @@ async def test_a_skipped_node_is_seen_in_the_whole_graph_until_it_runs() -> None
 def test_limits_are_kept_in_both_forms_and_what_makes_no_sense_is_refused() -> None:
     graph = read_graph(one("NoOp", {"retries": 2, "timeout_s": 1.5, "phrases": ["of a descriptor"]}))
     for faithful in (True, False):
-        written = graph_to_json(graph, faithful=faithful)
+        written = json.loads(write_graph(graph, faithful=faithful))
         assert written["actions"][0]["parley"] == {"retries": 2, "timeout_s": 1.5}
     for wrong in (
         {"retries": -1},

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -158,8 +158,8 @@ def test_an_optional_exit_without_the_outputs_of_the_graph_does_not_end_it() -> 
 @pytest.mark.spec("10.6")
 def test_values_of_another_type_are_not_handed_over() -> None:
     raw = read_graph(chain("g", [node("NoOp", 0), node("NoOp", 1)]))
-    giver = replace(raw.nodes[0], output_parameters={"size": Parameter("string")})
-    taker = replace(raw.nodes[1], input_parameters={"size": Parameter("number", 1.0)})
+    giver = raw.nodes[0]._replace(output_parameters={"size": Parameter("string")})
+    taker = raw.nodes[1]._replace(input_parameters={"size": Parameter("number", 1.0)})
     spec = CATALOGUE.get("NoOp")
     assert spec is not None
     flow = Flow(replace(raw, nodes=(giver, taker)), [spec, spec])
@@ -251,10 +251,7 @@ def test_all_of_a_node_is_shown_and_only_what_changed_is_shown_anew() -> None:
     graph, specs = resolve(read_graph(raw), CATALOGUE, actor="A")
     flow = Flow(graph, specs)
     first = flow.snapshot()
-    shown = {item.name: getattr(first[0], item.name) for item in fields(first[0])}
-    assert shown == {item.name: getattr(graph.nodes[0], item.name) for item in fields(first[0])} | {
-        "messages": ()
-    }
+    assert first[0] == graph.nodes[0]._replace(messages=())
     flow.nodes["JoinText_0"].note("new", 2)
     second = flow.snapshot()
     assert [item.message for item in second[0].messages] == ["new"]

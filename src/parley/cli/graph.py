@@ -36,6 +36,9 @@ _ENDED = {
     state.value for state in (GraphState.FINISHED, GraphState.HALTED, GraphState.STOPPED, GraphState.ERROR)
 }
 START_WITHIN_S = 30.0
+NO_TREES = (
+    "behaviour trees are another package: pip install parley-bt (from the sources: ./packages/parley-bt)"
+)
 
 
 @app.command("check")
@@ -121,8 +124,12 @@ def convert(
     json: Annotated[bool, typer.Option("--json", help="One JSON object per problem.")] = False,
 ) -> None:
     """Convert a graph to a BehaviorTree.CPP 4 tree, or a tree to a graph: all of it, or nothing and why."""
-    from parley.umrf.bt import export_tree, import_tree  # a part that nobody else needs
-
+    try:
+        from parley_bt import export_tree, import_tree
+    except ModuleNotFoundError as error:
+        if error.name != "parley_bt":
+            raise
+        raise ConfigError(NO_TREES) from error
     try:
         if to is ConvertTo.BTCPP:
             text = export_tree(read_graph(read_text(file)))

@@ -34,7 +34,7 @@ class Interrupted:
         """What was saved, as it is told to people."""
         states = {name: NodeState(kept["state"]) for name, kept in saved.nodes.items()}
         nodes = tuple(
-            replace(node, state=states.get(node.full_name, NodeState.UNINITIALIZED))
+            node._replace(state=states.get(node.full_name, NodeState.UNINITIALIZED))
             for node in saved.graph.nodes
         )
         outputs = {

@@ -127,7 +127,7 @@ def write(connection: sqlite3.Connection, *, batch: Batch, first: int) -> None:
 
 
 def _text(graph: Graph | GraphText) -> str:
-    return graph.text if isinstance(graph, GraphText) else _json(graph_to_json(graph, faithful=True))
+    return graph.text if isinstance(graph, GraphText) else _json(graph_to_json(graph))
 
 
 def _json(value: Any) -> str:

@@ -198,7 +198,7 @@ def merge(node: Node, spec: ActionSpec) -> Node:
             continue
         value = given.value if given.has_data else known.value
         merged[name] = replace(known, value=value, allowed=given.allowed)
-    return replace(node, input_parameters=merged)
+    return node._replace(input_parameters=merged)
 
 
 def descriptor_file_name(action: str) -> str:

@@ -32,7 +32,7 @@ from parley.umrf.model import (
     Result,
 )
 
-__all__ = ["Effect", "Flow", "FlowNode", "Runner"]
+__all__ = ["Effect", "Flow", "FlowNode"]
 
 MAX_LOG_MESSAGES = 10
 _COMPARABLE = ("string", "number", "bool")
@@ -50,30 +50,6 @@ class Effect:
     """For `finish` the graph's result, for `bypassed` what is passed on."""
     message: str = ""
     """For `fail`: why the node cannot run."""
-
-
-class Runner:
-    """What runs one node: made before its first run and kept, so that class actions remember."""
-
-    __slots__ = ("_made", "_spec")
-
-    def __init__(self, spec: ActionSpec) -> None:
-        self._spec = spec
-        self._made: Callable[..., Any] | None = None
-
-    def get(self) -> Callable[..., Any]:
-        """The function or bound method.
-
-        Raises:
-            ActionFailure: `not_capable`: the action is only described, by a descriptor file.
-        """
-        if self._made is None:
-            self._made = isolated(self._spec) if self._spec.isolated else self._spec.runner()
-        if self._made is None:
-            raise ActionFailure(
-                FailureCode.NOT_CAPABLE, f"{self._spec.name} is only described here; nothing carries it out."
-            )
-        return self._made
 
 
 @dataclass(slots=True, eq=False)
@@ -107,8 +83,8 @@ class FlowNode:
     """Whether it was to run (again) and lacked an input."""
     skipped: Result | None = None
     """See `Node.skipped`."""
-    runner: Runner = field(kw_only=True)
-    """What runs it, the same object for all runs."""
+    made: Callable[..., Any] | None = None
+    """What runs it, once it has run."""
     unsaved: bool = True
     """Whether something changed since it was last saved; whoever saves it takes the mark away."""
     stale: set[str] = field(default_factory=set, kw_only=True, repr=False)
@@ -119,6 +95,19 @@ class FlowNode:
         """Something about the node is different now; to be called after each change."""
         self._shown, self.unsaved = None, True
         self.stale.add(self.name)  # last, as a log line may come from a thread
+
+    def runner(self) -> Callable[..., Any]:
+        """What runs it: made before its first run and kept, so that class actions remember.
+
+        Raises:
+            ActionFailure: `not_capable`: the action is only described, by a descriptor file.
+        """
+        if self.made is None:
+            self.made = isolated(self.spec) if self.spec.isolated else self.spec.runner()
+        if self.made is None:
+            text = f"{self.spec.name} is only described here; nothing carries it out."
+            raise ActionFailure(FailureCode.NOT_CAPABLE, text)
+        return self.made
 
     @property
     def spontaneous(self) -> bool:
@@ -147,21 +136,10 @@ class FlowNode:
         """The node as it is now, with the data that is there (4.3); the same object until it changes."""
         if self._shown is None:
             node = self.node
-            self._shown = Node(  # done for each change of each node, and `replace` takes three times as long
-                name=node.name,
-                instance_id=node.instance_id,
-                type=node.type,
-                actor=node.actor,
-                description=node.description,
+            self._shown = node._replace(
                 state=self.state,
                 input_parameters=_valued(node.input_parameters, self.values),
-                output_parameters=node.output_parameters,
-                parents=node.parents,
-                children=node.children,
-                gui_attributes=node.gui_attributes,
                 messages=tuple(self.log),
-                retries=node.retries,
-                timeout_s=node.timeout_s,
                 skipped=self.skipped,
             )
         return self._shown
@@ -208,8 +186,17 @@ class Flow:
     def __init__(self, graph: Graph, specs: Sequence[ActionSpec], previous: Flow | None = None) -> None:
         self.entry = graph.entry
         self.exit = {relation.node.full_name: relation for relation in graph.exit}
-        self.started: bool = previous is not None and previous.started
-        old = previous.nodes if previous is not None else {}
+        self.started: bool = False
+        self.exit_received: set[str] = set()
+        self.exit_given: set[str] = set()
+        self.exit_values: dict[str, Any] = {}
+        """What the exit was given: the outputs of the graph as a whole (6)."""
+        old: Mapping[str, FlowNode] = {}
+        if previous is not None:
+            self.started, old = previous.started, previous.nodes
+            self.exit_received |= previous.exit_received & self.exit.keys()
+            self.exit_given |= previous.exit_given
+            self.exit_values |= previous.exit_values
         self.nodes: dict[str, FlowNode] = {}
         self._stale: set[str] = set()
         self._shown: dict[str, Node] = {}
@@ -226,15 +213,6 @@ class Flow:
                 item.see(ENTRY.full_name)
         for name in self.exit:
             self.nodes[name].children += (ChildRelation(EXIT),)
-        self.exit_received: set[str] = set()
-        self.exit_given: set[str] = set()
-        if previous is not None:
-            self.exit_received |= previous.exit_received & self.exit.keys()
-            self.exit_given |= previous.exit_given
-        self.exit_values: dict[str, Any] = {}
-        """What the exit was given: the outputs of the graph as a whole (6)."""
-        if previous is not None:
-            self.exit_values |= previous.exit_values
         outputs = [self.nodes[name].node.output_parameters for name in self.exit]
         self.exit_needs: Mapping[str, Parameter] = next((item for item in reversed(outputs) if item), {})
 
@@ -421,7 +399,6 @@ def _new(name: str, node: Node, spec: ActionSpec, stale: set[str]) -> FlowNode:
         parents=_parents(node),
         children=node.children,
         values=values,
-        runner=Runner(spec),
         stale=stale,
     )
 
@@ -435,8 +412,7 @@ def _carry(kept: FlowNode, node: Node, stale: set[str]) -> FlowNode:
     parents, entered = _parents(node), {ENTRY.full_name} & kept.received
     carried = replace(
         kept,
-        node=replace(
-            kept.node,
+        node=kept.node._replace(
             parents=node.parents,
             children=node.children,
             retries=node.retries,

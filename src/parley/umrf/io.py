@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import fields, replace
 from json.encoder import encode_basestring
 from operator import attrgetter
 from typing import Any, Final
@@ -35,7 +34,6 @@ __all__ = [
     "UnreadableGraphError",
     "dump",
     "graph_to_json",
-    "node_to_json",
     "read_descriptor",
     "read_graph",
     "read_loaded",
@@ -101,27 +99,26 @@ def read_descriptor(source: str | Mapping[str, Any]) -> ActionSpec:
 
 
 def write_graph(graph: Graph, *, faithful: bool = False) -> str:
-    """The JSON text of a graph; see `graph_to_json`."""
-    return dump(graph_to_json(graph, faithful=faithful))
+    """The JSON text of a graph: as it is published (9), or that of `graph_to_json`."""
+    if faithful:
+        return dump(graph_to_json(graph))
+    nodes = sorted(graph.nodes, key=lambda node: node.full_name)
+    return _published(_published_frame(graph), [_lay_out_node(node) for node in nodes])
 
 
-def graph_to_json(graph: Graph, *, faithful: bool = False) -> dict[str, Any]:
-    """The JSON object of a graph.
+def graph_to_json(graph: Graph) -> dict[str, Any]:
+    """The JSON object of a graph from which the same graph is read.
 
-    Args:
-        graph: What to write.
-        faithful: Keep what the published form loses (exit conditions, entry remaps, ``pvf_required``), state
-            only the conditions that were stated, and keep the order of the actions.
+    It has what the published form loses (exit conditions, entry remaps, ``pvf_required``), the order of the
+    actions, and only the conditions that were stated.
     """
-    state = GraphState.INITIALIZED if graph.state is GraphState.UNINITIALIZED else graph.state
-    nodes = graph.nodes if faithful else sorted(graph.nodes, key=lambda node: node.full_name)
     return {
         "graph_name": graph.name,
         "graph_description": graph.description,
-        "graph_state": (graph.state if faithful else state).value,
-        "graph_entry": [_child(relation, with_remap=faithful) for relation in graph.entry],
-        "graph_exit": [_parent(relation, _exit_conditions(relation, faithful)) for relation in graph.exit],
-        "actions": [node_to_json(node, faithful=faithful) for node in nodes],
+        "graph_state": graph.state.value,
+        "graph_entry": [_child(relation) for relation in graph.entry],
+        "graph_exit": [_parent(relation) for relation in graph.exit],
+        "actions": [_node(node) for node in graph.nodes],
     }
 
 
@@ -166,17 +163,33 @@ class GraphWriter:
         self.prepare(graph, -1)
         head = (graph.name, graph.description, graph.state, graph.entry, graph.exit)
         if head != self._head:
-            self._head, self._frame = head, dump(graph_to_json(replace(graph, nodes=())))
-        if not graph.nodes:
-            return self._frame
+            self._head, self._frame = head, _published_frame(graph)
         if len(self._texts) != len(graph.nodes):  # some were taken out
             names = {node.full_name for node in graph.nodes}
             self._texts = {name: item for name, item in self._texts.items() if name in names}
             self._order = []
         if not self._order:
             self._order = sorted(self._texts)
-        actions = ",\n".join([self._texts[name][1] for name in self._order])
-        return self._frame.replace('"actions": []', f'"actions": [\n{actions}\n    ]', 1)
+        return _published(self._frame, [self._texts[name][1] for name in self._order])
+
+
+def _published(frame: str, nodes: Sequence[str]) -> str:
+    """The text of a graph from those of its parts."""
+    actions = "\n" + ",\n".join(nodes) + "\n    " if nodes else ""
+    return f'{{\n    "actions": [{actions}],{frame}'
+
+
+def _published_frame(graph: Graph) -> str:
+    """The published text of a graph after its actions."""
+    state = GraphState.INITIALIZED if graph.state is GraphState.UNINITIALIZED else graph.state
+    written = {
+        "graph_name": graph.name,
+        "graph_description": graph.description,
+        "graph_state": state.value,
+        "graph_entry": [relation.node._asdict() for relation in graph.entry],
+        "graph_exit": [{**relation.node._asdict(), "required": relation.required} for relation in graph.exit],
+    }
+    return dump(written)[1:]
 
 
 def _node_text(node: Node, known: tuple[Node, str] | None) -> str:
@@ -188,14 +201,14 @@ def _node_text(node: Node, known: tuple[Node, str] | None) -> str:
     return _lay_out_node(node)
 
 
-_BUT_STATE: Final = attrgetter(*(item.name for item in fields(Node) if item.name != "state"))
+_BUT_STATE: Final = attrgetter(*(name for name in Node._fields if name != "state"))
 
 _LINE: Final = "\n            "
 """What begins a line of a node's own keys in a published graph."""
 
 
 def _lay_out_node(node: Node) -> str:
-    """What `_lay_out` of `node_to_json` gives inside of a graph; most of a node has always the same form."""
+    """A node as it stands in a published graph; most of it has always the same form."""
     parts: list[str] = []
     if node.actor:
         parts.append(f'"actor": {encode_basestring(node.actor)}')
@@ -205,13 +218,11 @@ def _lay_out_node(node: Node) -> str:
     if node.gui_attributes is not None:
         parts.append(f'"gui_attributes": {_lay_out(node.gui_attributes, _LINE)}')
     if node.input_parameters:
-        inputs = _parameters(node.input_parameters, with_required=False)
-        parts.append(f'"input_parameters": {_lay_out(inputs, _LINE)}')
+        parts.append(f'"input_parameters": {_lay_out(write_parameters(node.input_parameters), _LINE)}')
     parts.append(f'"instance_id": {node.instance_id}')
     parts.append(f'"name": {encode_basestring(node.name)}')
     if node.output_parameters:
-        outputs = _parameters(node.output_parameters, with_required=False)
-        parts.append(f'"output_parameters": {_lay_out(outputs, _LINE)}')
+        parts.append(f'"output_parameters": {_lay_out(write_parameters(node.output_parameters), _LINE)}')
     if node.parents:
         parts.append(f'"parents": [{",".join(map(_lay_out_parent, node.parents))}{_LINE}]')
     if extras := _extras(node):
@@ -253,31 +264,26 @@ def _state_line(node: Node) -> str:
     return f'\n            "state": "{node.state.value}"'
 
 
-def node_to_json(node: Node, *, faithful: bool = False) -> dict[str, Any]:
-    """The JSON object of one action node; see `graph_to_json`."""
+def _node(node: Node) -> dict[str, Any]:
     written: dict[str, Any] = {
         "name": node.name,
         "instance_id": node.instance_id,
         "description": node.description,
         "type": node.type,
         "state": node.state.value,
+    }
+    optional: dict[str, Any] = {
         "actor": node.actor,
-        "input_parameters": _parameters(node.input_parameters, with_required=faithful),
-        "output_parameters": _parameters(node.output_parameters, with_required=faithful),
-        "parents": [
-            _parent(relation, relation.conditions if faithful else _all_conditions(relation))
-            for relation in node.parents
-        ],
+        "input_parameters": _parameters(node.input_parameters),
+        "output_parameters": _parameters(node.output_parameters),
+        "parents": [_parent(relation) for relation in node.parents],
         "children": [_child(relation) for relation in node.children],
+        EXTRAS: _extras(node),
+        "runtime": _runtime(node) if node.messages else None,
     }
     if node.gui_attributes is not None:
         written["gui_attributes"] = node.gui_attributes
-    if extras := _extras(node):
-        written[EXTRAS] = extras
-    if node.messages:
-        written["runtime"] = _runtime(node)
-    optional = ("actor", "input_parameters", "output_parameters", "parents", "children")
-    return {key: value for key, value in written.items() if value or key not in optional}
+    return written | {key: value for key, value in optional.items() if value}
 
 
 def _extras(node: Node) -> dict[str, Any]:
@@ -301,7 +307,7 @@ def write_descriptor(spec: ActionSpec) -> str:
         written["description"] = spec.description
     for key, parameters in (("input_parameters", spec.inputs), ("output_parameters", spec.outputs)):
         if parameters:
-            written[key] = _parameters(parameters, with_required=True)
+            written[key] = _parameters(parameters)
     extras = write_extras(spec)
     if extras:
         written[EXTRAS] = extras
@@ -337,46 +343,28 @@ def _lay_out(value: Any, line: str) -> str:
     return _LITERALS[value] if isinstance(value, bool) else json.dumps(value, allow_nan=False)
 
 
-def _parameters(parameters: Parameters, *, with_required: bool) -> dict[str, Any]:
+def _parameters(parameters: Parameters) -> dict[str, Any]:
+    """The tree of parameters, with what the published form loses."""
     tree = write_parameters(parameters)
-    if with_required:
-        for name, parameter in parameters.items():
-            if not parameter.required:
-                _find(tree, name)["pvf_required"] = False
+    for name, parameter in parameters.items():
+        if not parameter.required:
+            level = tree
+            for part in name.split(SEPARATOR):
+                level = level[part]
+            level["pvf_required"] = False
     return tree
 
 
-def _find(tree: dict[str, Any], name: str) -> dict[str, Any]:
-    for level in name.split(SEPARATOR):
-        tree = tree[level]
-    return tree
-
-
-def _child(relation: ChildRelation, *, with_remap: bool = True) -> dict[str, Any]:
-    written: dict[str, Any] = {"name": relation.node.name, "instance_id": relation.node.instance_id}
-    if relation.remap and with_remap:
+def _child(relation: ChildRelation) -> dict[str, Any]:
+    written: dict[str, Any] = relation.node._asdict()
+    if relation.remap:
         written["remap"] = [{"from": source, "to": target} for source, target in relation.remap]
     return written
 
 
-def _parent(relation: ParentRelation, conditions: Mapping[Result, Response]) -> dict[str, Any]:
-    written: dict[str, Any] = {
-        "name": relation.node.name,
-        "instance_id": relation.node.instance_id,
-        "required": relation.required,
-    }
-    if conditions:
-        written["conditions"] = [
-            f"{result.value} -> {conditions[result].value}"
-            for result in DEFAULT_CONDITIONS
-            if result in conditions
-        ]
+def _parent(relation: ParentRelation) -> dict[str, Any]:
+    written: dict[str, Any] = {**relation.node._asdict(), "required": relation.required}
+    if stated := relation.conditions:
+        order = (result for result in DEFAULT_CONDITIONS if result in stated)
+        written["conditions"] = [f"{result.value} -> {stated[result].value}" for result in order]
     return written
-
-
-def _all_conditions(relation: ParentRelation) -> dict[Result, Response]:
-    return {result: relation.response(result) for result in DEFAULT_CONDITIONS}
-
-
-def _exit_conditions(relation: ParentRelation, faithful: bool) -> Mapping[Result, Response]:
-    return relation.conditions if faithful else {}

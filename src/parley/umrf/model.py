@@ -156,9 +156,8 @@ class LogMessage:
     message: str
 
 
-@dataclass(frozen=True, slots=True)
-class Node:
-    """One action node (3)."""
+class Node(NamedTuple):
+    """One action node (3); a tuple, as one is made for each change of a running graph."""
 
     name: str
     instance_id: int = 0
@@ -166,8 +165,8 @@ class Node:
     actor: str = ""
     description: str = ""
     state: NodeState = NodeState.UNINITIALIZED
-    input_parameters: Mapping[str, Parameter] = field(default_factory=dict)
-    output_parameters: Mapping[str, Parameter] = field(default_factory=dict)
+    input_parameters: Mapping[str, Parameter] = NOTHING
+    output_parameters: Mapping[str, Parameter] = NOTHING
     parents: tuple[ParentRelation, ...] = ()
     children: tuple[ChildRelation, ...] = ()
     gui_attributes: Any = None

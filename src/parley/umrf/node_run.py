@@ -191,7 +191,7 @@ class NodeRun:
         if item.spec.pausable or self.attempt > 1:
             await self.wait_while_paused()  # nothing begins during a pause
         self._begun = True
-        run = item.runner.get()
+        run = item.runner()
         arguments = bind_inputs(item.spec, self._values)
         context = self._host.make_context(self)
         if inspect.iscoroutinefunction(run):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from typing import Any, Final, TypeVar
 
 from parley.errors import GraphRefusedError, InvalidMessageError, Problem
@@ -36,6 +35,10 @@ EXTRAS: Final = "parley"
 """The key of a node or a descriptor for what UMRF does not know; other engines ignore it."""
 
 T = TypeVar("T")
+S = TypeVar("S", NodeState, GraphState)
+
+_RESULTS: Final = {result.value: result for result in DEFAULT_CONDITIONS}
+_RESPONSES: Final = {response.value: response for response in Response}
 
 
 def load_object(source: str | Mapping[str, Any], what: str) -> Mapping[str, Any]:
@@ -94,13 +97,13 @@ class Reader:
         if len(complete) == len(actions):  # otherwise the culprit is named already
             self._check_known(known, [relation.node for relation in entry], "graph_entry")
             self._check_known(known, [relation.node for relation in exits], "graph_exit")
-        state = self._word(raw, "graph_state", "", GraphState, GraphState.UNINITIALIZED)
+        state = self._state(raw, "graph_state", "", GraphState.UNINITIALIZED)
         description = self._text(raw, "graph_description", "")
         return Graph(name, complete, entry, exits, description, state) if name else None
 
     def node(self, raw: Any, path: str) -> Node | None:
         """An action node or descriptor (3)."""
-        if not isinstance(raw, Mapping):
+        if not isinstance(raw, dict):
             self._problem(path, f"expected an action object, got {_kind(raw)}")
             return None
         name = self._text(raw, "name", path, needed=True)
@@ -111,7 +114,7 @@ class Reader:
             type=kind,
             actor=self._text(raw, "actor", path),
             description=self._text(raw, "description", path),
-            state=self._word(raw, "state", path, NodeState, NodeState.UNINITIALIZED),
+            state=self._state(raw, "state", path, NodeState.UNINITIALIZED),
             input_parameters=self._parameters(raw, "input_parameters", path),
             output_parameters=self._parameters(raw, "output_parameters", path),
             parents=self._each(raw, "parents", path, self._parent),
@@ -135,22 +138,19 @@ class Reader:
         if timeout_s is not None and (type(timeout_s) not in (int, float) or not 0 < timeout_s < math.inf):
             self._problem(f"{path}.timeout_s", f"expected seconds above 0, got {timeout_s!r}")
             timeout_s = None
-        return replace(node, retries=retries, timeout_s=timeout_s)
+        return node._replace(retries=retries, timeout_s=timeout_s)
 
     def _child(self, raw: Any, path: str) -> ChildRelation | None:
         ref = self._ref(raw, path)
-        if ref is None:
-            return None
+        if ref is None or "remap" not in raw:
+            return ChildRelation(ref) if ref is not None else None
         remap: dict[str, str] = {}
         for index, item in enumerate(self._list(raw, "remap", path)):
             where = f"{path}.remap[{index}]"
-            if not isinstance(item, Mapping):
+            if not isinstance(item, dict):
                 self._problem(where, f'expected {{"from": .., "to": ..}}, got {_kind(item)}')
                 continue
-            source, target = (
-                self._text(item, "from", where, needed=True),
-                self._text(item, "to", where, needed=True),
-            )
+            source, target = (self._text(item, key, where, needed=True) for key in ("from", "to"))
             if source in remap:
                 self._problem(f"{where}.from", f"{source!r} is renamed twice", "keep one of the two")
             remap[source] = target
@@ -165,8 +165,9 @@ class Reader:
             self._problem(_join(path, "required"), f"expected true or false, got {_kind(required)}")
             required = True
         conditions: dict[Result, Response] = {}
-        for index, item in enumerate(self._list(raw, "conditions", path)):
-            conditions |= self._condition(item, f"{path}.conditions[{index}]")
+        if "conditions" in raw:
+            for index, item in enumerate(self._list(raw, "conditions", path)):
+                conditions |= self._condition(item, f"{path}.conditions[{index}]")
         return ParentRelation(ref, required, conditions)
 
     def _condition(self, raw: Any, path: str) -> dict[Result, Response]:
@@ -177,18 +178,15 @@ class Reader:
         if len(words) != 2:
             self._problem(path, f"cannot read {raw!r}", 'write it like "on_true -> run"')
             return {}
-        results = {result.value: result for result in DEFAULT_CONDITIONS}
-        responses = {response.value: response for response in Response}
-        if words[0] not in results:
-            self._problem(path, f"unknown precondition {words[0]!r}", _one_of(results), "unknown_word")
-        if words[1] not in responses:
-            self._problem(path, f"unknown response {words[1]!r}", _one_of(responses), "unknown_word")
-        if words[0] in results and words[1] in responses:
-            return {results[words[0]]: responses[words[1]]}
-        return {}
+        result, response = _RESULTS.get(words[0]), _RESPONSES.get(words[1])
+        if result is None:
+            self._problem(path, f"unknown precondition {words[0]!r}", _one_of(_RESULTS), "unknown_word")
+        if response is None:
+            self._problem(path, f"unknown response {words[1]!r}", _one_of(_RESPONSES), "unknown_word")
+        return {result: response} if result is not None and response is not None else {}
 
     def _ref(self, raw: Any, path: str) -> NodeRef | None:
-        if not isinstance(raw, Mapping):
+        if not isinstance(raw, dict):
             self._problem(path, f"expected an object with name and instance_id, got {_kind(raw)}")
             return None
         name = self._text(raw, "name", path, needed=True)
@@ -196,7 +194,9 @@ class Reader:
 
     def _instance_id(self, raw: Mapping[str, Any], path: str) -> int:
         value = raw.get("instance_id", 0)
-        whole = type(value) is int or (type(value) is float and value.is_integer())
+        if type(value) is int and 0 <= value <= MAX_INSTANCE_ID:
+            return value
+        whole = type(value) is float and value.is_integer()
         if not whole or not 0 <= value <= MAX_INSTANCE_ID:
             self._problem(
                 _join(path, "instance_id"),
@@ -263,13 +263,14 @@ class Reader:
                 )
 
     def _text(self, raw: Mapping[str, Any], key: str, path: str, *, needed: bool = False) -> str:
-        value: Any = raw.get(key, "")
-        if not isinstance(value, str):
-            self._problem(_join(path, key), f"expected a string, got {_kind(value)}")
-            return ""
-        if needed and not value:
+        value = raw.get(key, "")
+        if isinstance(value, str) and (value or not needed):
+            return value
+        if value == "":
             self._problem(_join(path, key), "is missing or empty", f"give {key} a text", "missing")
-        return str(value)
+        else:
+            self._problem(_join(path, key), f"expected a string, got {_kind(value)}")
+        return ""
 
     def _list(self, raw: Mapping[str, Any], key: str, path: str, *, needed: bool = False) -> list[Any]:
         if key not in raw:
@@ -292,16 +293,20 @@ class Reader:
         needed: bool = False,
     ) -> tuple[T, ...]:
         items = self._list(raw, key, path, needed=needed)
-        parsed = (read(item, f"{_join(path, key)}[{index}]") for index, item in enumerate(items))
-        return tuple(item for item in parsed if item is not None)
+        if not items:
+            return ()
+        where = _join(path, key)
+        found = [read(item, f"{where}[{index}]") for index, item in enumerate(items)]
+        return tuple([item for item in found if item is not None])
 
-    def _word(self, raw: Mapping[str, Any], key: str, path: str, words: type[T], default: T) -> T:
+    def _state(self, raw: Mapping[str, Any], key: str, path: str, default: S) -> S:
         value = raw.get(key, default)
         try:
-            return words(value)  # type: ignore[call-arg]
+            return type(default)(value)
         except ValueError:
-            known = {str(word) for word in words}  # type: ignore[attr-defined]
-            self._problem(_join(path, key), f"unknown state {value!r}", _one_of(known), "unknown_word")
+            self._problem(
+                _join(path, key), f"unknown state {value!r}", _one_of(type(default)), "unknown_word"
+            )
             return default
 
     def _problem(self, path: str, message: str, remedy: str = "", code: str = "malformed") -> None:

@@ -9,7 +9,10 @@ from dataclasses import dataclass, field
 
 from parley.clock import WallClock
 from parley.umrf.action import ActionSpec, RunHandle
-from parley.umrf.bt.shape import (
+from parley.umrf.catalogue import Catalogue
+from parley.umrf.executor import GraphRun
+from parley.umrf.model import Graph, Result
+from parley_bt.shape import (
     Fallback,
     ForceSuccess,
     Inverter,
@@ -19,9 +22,6 @@ from parley.umrf.bt.shape import (
     Sequence,
     Shape,
 )
-from parley.umrf.catalogue import Catalogue
-from parley.umrf.executor import GraphRun
-from parley.umrf.model import Graph, Result
 
 MAX_RUNS = 40
 """Loops may go on for ever; so many runs are compared."""

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from parley.errors import Problem
-from parley.umrf.bt.reasons import refusal
 from parley.umrf.model import EXIT, ChildRelation, Graph, Node, NodeRef, ParentRelation, Response, Result
+from parley_bt.reasons import refusal
 
 __all__ = ["Cont", "Edge", "Way", "Ways"]
 

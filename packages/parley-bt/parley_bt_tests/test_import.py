@@ -7,10 +7,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from parley.errors import GraphRefusedError
-from parley.umrf.bt import IMPORT_REASONS, export_tree, import_tree
-from parley.umrf.bt.structure import structure
 from parley.umrf.io import read_graph, write_graph
 from parley.umrf.model import Graph, NodeRef, Response, Result
+from parley_bt import IMPORT_REASONS, export_tree, import_tree
+from parley_bt.structure import structure
 
 MODELS = """
   <TreeNodesModel>

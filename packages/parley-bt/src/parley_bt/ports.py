@@ -9,8 +9,8 @@ from typing import Any, Final
 
 from parley.errors import Problem
 from parley.messages.pvf import SEPARATOR, Parameter
-from parley.umrf.bt.reasons import refusal
 from parley.umrf.model import Graph, Node, NodeRef, Response, Result
+from parley_bt.reasons import refusal
 
 __all__ = [
     "BUILTIN_NODES",

@@ -9,8 +9,10 @@ from typing import Final
 
 from parley.errors import GraphRefusedError, Problem
 from parley.messages.pvf import NATIVE_TYPES, Parameter
-from parley.umrf.bt.build import Links, build
-from parley.umrf.bt.ports import (
+from parley.umrf.model import Graph, Node, NodeRef
+from parley.umrf.reading import MAX_ACTIONS, MAX_INSTANCE_ID
+from parley_bt.build import Links, build
+from parley_bt.ports import (
     BUILTIN_NODES,
     CPP_TYPES,
     ON_FALSE,
@@ -19,8 +21,8 @@ from parley.umrf.bt.ports import (
     parameter_name,
     read_value,
 )
-from parley.umrf.bt.reasons import refusal
-from parley.umrf.bt.shape import (
+from parley_bt.reasons import refusal
+from parley_bt.shape import (
     FOREVER,
     ForceSuccess,
     Leaf,
@@ -33,9 +35,7 @@ from parley.umrf.bt.shape import (
     sequence,
     starts,
 )
-from parley.umrf.bt.xml import Element, parse
-from parley.umrf.model import Graph, Node, NodeRef
-from parley.umrf.reading import MAX_ACTIONS, MAX_INSTANCE_ID
+from parley_bt.xml import Element, parse
 
 __all__ = ["import_tree"]
 
@@ -64,7 +64,7 @@ def import_tree(text: str) -> Graph:
 
     Raises:
         GraphRefusedError: There is none; every problem names line and element and has a code of
-            `parley.umrf.bt.IMPORT_REASONS`.
+            `parley_bt.IMPORT_REASONS`.
     """
     root = parse(text)
     trees = list(root.all("BehaviorTree"))

@@ -7,11 +7,11 @@ from itertools import pairwise
 from hypothesis import assume, given, settings
 
 from parley.errors import GraphRefusedError
-from parley.umrf.bt import EXPORT_REASONS, IMPORT_REASONS, export_tree, import_tree
-from parley.umrf.bt.build import Links, build
-from parley.umrf.bt.shape import Shape, leaves
-from parley.umrf.bt.structure import structure
 from parley.umrf.model import Graph, Node, Result
+from parley_bt import EXPORT_REASONS, IMPORT_REASONS, export_tree, import_tree
+from parley_bt.build import Links, build
+from parley_bt.shape import Shape, leaves
+from parley_bt.structure import structure
 
 from .format_rules import violations
 from .graphs import DEFAULT, STRICT, graph, graphs, scripts, shapes
@@ -23,7 +23,7 @@ def script_of(graph: Graph, endings: list[str]) -> dict[str, str]:
 
 
 def agree(shape: Shape, tree: Trace, engine: Trace) -> bool:
-    """Whether both did the same, as far as it is promised (``docs/graphs.md``)."""
+    """Whether both did the same, as far as it is promised (`README.md`)."""
     if tree.halted_others:  # the others may have got less far
         return engine.result is not Result.ON_TRUE
     if has_parallel(shape):  # nobody promises an order among branches

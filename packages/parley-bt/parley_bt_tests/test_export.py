@@ -12,11 +12,11 @@ import pytest
 
 from parley.errors import GraphRefusedError
 from parley.messages.pvf import Parameter
-from parley.umrf.bt import EXPORT_REASONS, export_tree
-from parley.umrf.bt.shape import Fallback, ForceSuccess, Inverter, Leaf, Parallel, Retry, Shape
-from parley.umrf.bt.shape import Sequence as Row
-from parley.umrf.bt.structure import structure
 from parley.umrf.model import ChildRelation, Graph, NodeRef, Response, Result
+from parley_bt import EXPORT_REASONS, export_tree
+from parley_bt.shape import Fallback, ForceSuccess, Inverter, Leaf, Parallel, Retry, Shape
+from parley_bt.shape import Sequence as Row
+from parley_bt.structure import structure
 
 from .format_rules import violations
 from .graphs import ALWAYS, DEFAULT, RECOVER, STRICT, graph
@@ -102,7 +102,7 @@ def with_parameters(*, entry: dict[str, Any] | None = None, **more: Any) -> Grap
     }
     nodes["B"]["input_parameters"] |= more
     made = graph({("A", "B"): DEFAULT}, leave={"B": DEFAULT}, nodes=nodes)
-    first = replace(made.nodes[0], children=(ChildRelation(NodeRef("B"), (("said", "heard"),)),))
+    first = made.nodes[0]._replace(children=(ChildRelation(NodeRef("B"), (("said", "heard"),)),))
     return replace(made, nodes=(first, *made.nodes[1:]))
 
 
@@ -149,13 +149,13 @@ def given_twice() -> Graph:
 
 def one_sided() -> Graph:
     made = graph({("A", "B"): DEFAULT})
-    return replace(made, nodes=(replace(made.nodes[0], children=()), made.nodes[1]))
+    return replace(made, nodes=(made.nodes[0]._replace(children=()), made.nodes[1]))
 
 
 def stopped() -> Graph:
     made = graph({("A", "B"): DEFAULT})
     relation = replace(made.nodes[1].parents[0], conditions={Result.ON_STOPPED: Response.RUN})
-    return replace(made, nodes=(made.nodes[0], replace(made.nodes[1], parents=(relation,))))
+    return replace(made, nodes=(made.nodes[0], made.nodes[1]._replace(parents=(relation,))))
 
 
 def deep() -> Graph:

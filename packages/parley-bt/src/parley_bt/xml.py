@@ -8,7 +8,7 @@ from typing import Final
 from xml.parsers import expat
 
 from parley.errors import GraphRefusedError
-from parley.umrf.bt.reasons import refusal
+from parley_bt.reasons import refusal
 
 __all__ = ["Element", "parse"]
 

@@ -1,4 +1,4 @@
-"""Why a graph or a tree cannot be converted: the closed list, held to ``docs/graphs.md`` by a test."""
+"""Why a graph or a tree cannot be converted: the closed list, held to `README.md` by a test."""
 
 from __future__ import annotations
 

@@ -8,7 +8,8 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from parley.umrf.bt.shape import (
+from parley.umrf.model import ChildRelation, Graph, Node, NodeRef, ParentRelation, Response, Result
+from parley_bt.shape import (
     Fallback,
     ForceSuccess,
     Inverter,
@@ -22,8 +23,7 @@ from parley.umrf.bt.shape import (
     sequence,
     starts,
 )
-from parley.umrf.bt.shape import Sequence as Row
-from parley.umrf.model import ChildRelation, Graph, Node, NodeRef, ParentRelation, Response, Result
+from parley_bt.shape import Sequence as Row
 
 RESULTS = (Result.ON_TRUE, Result.ON_FALSE, Result.ON_ERROR)
 DEFAULT, STRICT, RECOVER, ALWAYS = "run run bypass", "run bypass bypass", "bypass run run", "run run run"

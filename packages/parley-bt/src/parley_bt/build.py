@@ -8,8 +8,9 @@ from itertools import pairwise
 from typing import Literal
 
 from parley.errors import GraphRefusedError, Problem
-from parley.umrf.bt.reasons import refusal
-from parley.umrf.bt.shape import (
+from parley.umrf.model import ChildRelation, Graph, Node, NodeRef, ParentRelation, Response, Result
+from parley_bt.reasons import refusal
+from parley_bt.shape import (
     Fallback,
     ForceSuccess,
     Inverter,
@@ -22,7 +23,6 @@ from parley.umrf.bt.shape import (
     leaves,
     starts,
 )
-from parley.umrf.model import ChildRelation, Graph, Node, NodeRef, ParentRelation, Response, Result
 
 __all__ = ["Links", "build"]
 
@@ -182,8 +182,7 @@ class _Builder:
                 self._refuse("join_mixed", Leaf(child))
         remaps = _Data(nodes, parents, self._links, self._refuse).remaps(starts(shape))
         linked = tuple(
-            replace(
-                node,
+            node._replace(
                 parents=tuple(_relation(parent, edge) for parent, edge in parents[ref].items()),
                 children=tuple(
                     ChildRelation(child, remaps.get((ref, child), ())) for child in self._edges.get(ref, {})

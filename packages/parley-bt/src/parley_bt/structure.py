@@ -11,8 +11,9 @@ from dataclasses import dataclass, replace
 from typing import Final, Literal
 
 from parley.errors import GraphRefusedError, Problem
-from parley.umrf.bt.reasons import refusal
-from parley.umrf.bt.shape import (
+from parley.umrf.model import EXIT, Graph, NodeRef, Result
+from parley_bt.reasons import refusal
+from parley_bt.shape import (
     Fallback,
     ForceSuccess,
     Inverter,
@@ -25,8 +26,7 @@ from parley.umrf.bt.shape import (
     inverter,
     sequence,
 )
-from parley.umrf.bt.ways import Cont, Edge, Way, Ways
-from parley.umrf.model import EXIT, Graph, NodeRef, Result
+from parley_bt.ways import Cont, Edge, Way, Ways
 
 __all__ = ["structure"]
 

@@ -8,7 +8,8 @@ from xml.etree import ElementTree
 
 from parley.errors import GraphRefusedError, Problem
 from parley.messages.pvf import SEPARATOR
-from parley.umrf.bt.ports import (
+from parley.umrf.model import Graph, Node
+from parley_bt.ports import (
     CPP_TYPES,
     ON_FALSE,
     Port,
@@ -18,8 +19,8 @@ from parley.umrf.bt.ports import (
     port_name,
     write_value,
 )
-from parley.umrf.bt.reasons import refusal
-from parley.umrf.bt.shape import (
+from parley_bt.reasons import refusal
+from parley_bt.shape import (
     Fallback,
     ForceSuccess,
     Inverter,
@@ -29,8 +30,7 @@ from parley.umrf.bt.shape import (
     Sequence,
     Shape,
 )
-from parley.umrf.bt.structure import structure
-from parley.umrf.model import Graph, Node
+from parley_bt.structure import structure
 
 __all__ = ["export_tree"]
 
@@ -39,7 +39,7 @@ def export_tree(graph: Graph) -> str:
     """The XML of the behaviour tree that does what `graph` does.
 
     Raises:
-        GraphRefusedError: There is none; every problem has a code of `parley.umrf.bt.EXPORT_REASONS`.
+        GraphRefusedError: There is none; every problem has a code of `parley_bt.EXPORT_REASONS`.
     """
     shape = structure(graph)
     given, problems = entries(graph)
