@@ -6,15 +6,23 @@ import re
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationInfo
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    ValidationInfo,
+    field_validator,
+    model_validator,
+)
 
 from parley.files import TextFile, read_text, validated_yaml
 from parley.messages.attendance import Unattended
 from parley.sentences import SpokenLanguage
 
 __all__ = [
-    "ApprovalPolicy", "EmbeddingSettings", "FeedSettings", "ModelPrice", "ModelSettings", "SystemConfig",
-    "language_name",
+    "ApprovalPolicy", "CallSettings", "EmailSettings", "EmbeddingSettings", "FeedSettings", "ModelPrice",
+    "ModelSettings", "SystemConfig", "language_name",
 ]  # fmt: skip
 
 ApprovalPolicy = Literal["run_at_once", "ask_when_risky", "ask_first"]
@@ -120,6 +128,49 @@ class EmbeddingSettings(BaseModel):
     """Least cosine of what counts as alike; models differ."""
 
 
+class EmailSettings(BaseModel):
+    """By which server an e-mail goes out, and to whom."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    to: tuple[str, ...] = Field(min_length=1)
+    sender: str
+    host: str
+    port: int = Field(default=587, ge=1, le=65535)
+    tls: Literal["starttls", "tls", "none"] = "starttls"
+    user: str = ""
+    """Empty: the server asks for no password."""
+    password_file: FilePath | None = None
+
+    @field_validator("to", "sender")
+    @classmethod
+    def _one_line(cls, value: str | tuple[str, ...]) -> str | tuple[str, ...]:
+        for address in (value,) if isinstance(value, str) else value:
+            if not re.fullmatch(r"[^\s@]+@[^\s@]+", address):
+                raise ValueError(f"{address!r} is no e-mail address")
+        return value
+
+
+class CallSettings(BaseModel):
+    """Who is called when a robot waits for a person: one of `webhook`, `webhook_file` and `email`."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    after_s: float = Field(default=60.0, ge=0)
+    """Wall time that it must have waited."""
+    webhook: str = Field(default="", pattern=r"^(https?://\S+)?$")
+    """Address that gets a POST with `text`, `robot` and `waited_s` as JSON."""
+    webhook_file: FilePath | None = None
+    """File with the address, where that is a secret."""
+    email: EmailSettings | None = None
+
+    @model_validator(mode="after")
+    def _one_way(self) -> Self:
+        if sum(map(bool, (self.webhook, self.webhook_file, self.email))) != 1:
+            raise ValueError("give one of webhook, webhook_file and email")
+        return self
+
+
 class FeedSettings(BaseModel):
     """What is special about one display feed; what is left out is as for all."""
 
@@ -168,6 +219,8 @@ class SystemConfig(BaseModel, TextFile):
     `hold` (wait for a person), `go_home` (drive to where they stood when the system started)."""
     unattended_after_s: float = Field(default=30.0, gt=0)
     """Wall time for which nobody must be connected for that."""
+    calls: tuple[CallSettings, ...] = ()
+    """Who is called when a robot waits for a yes or an answer; a later one, when nobody came."""
     approval_of: dict[str, ApprovalPolicy] = Field(default_factory=dict)
     """Robots for which that is otherwise, by name."""
     speed: float | None = Field(default=1.0, gt=0)

@@ -16,6 +16,7 @@ from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.actions.context import ActionContext
 from parley.agents.audit_log import AuditLog
 from parley.agents.base import Node
+from parley.agents.calls.calls import Calls
 from parley.agents.chat.chat_interface import ChatInterface
 from parley.agents.display.camera_feed import CameraFeed
 from parley.agents.display.display_interface import DisplayInterface
@@ -263,6 +264,7 @@ class System:
         absent = UnattendedPlans(transport, clock, config.unattended, config.unattended_after_s)
         await enter(self._speaking(absent))
         notices = self._notices = await enter(self._speaking(Notices(transport)))
+        await enter(self._speaking(Calls(transport, clock, config.calls, tell=self._tell_all)))
         doubt = IN_DOUBT if self.stop_line.in_doubt else ""
         for text in (doubt, self.store.notice, incidents.notice, proposals.notice, *self._early):
             self._tell_all(text, "error")
