@@ -119,9 +119,12 @@ async def test_a_late_subscriber_gets_the_last_message_of_a_latched_topic_and_th
 
 
 async def test_a_late_subscriber_gets_nothing_old_from_other_topics(network: Network) -> None:
+    early: list[str] = []
     heard: list[str] = []
+    await network.there.subscribe(PLAIN, lambda message: early.append(message.data))
     sender = network.here.publisher(PLAIN)
     sender.publish(String("old"))
+    await until(lambda: early)
     await network.there.subscribe(PLAIN, lambda message: heard.append(message.data))
     sender.publish(String("new"))
     await until(lambda: heard)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import atexit
 import contextlib
 import itertools
+import threading
 from collections.abc import Awaitable, Callable
 from pathlib import Path
 from types import TracebackType
@@ -96,6 +98,7 @@ class ZenohTransport:
         except zenoh.ZError as error:
             self._end_lanes()
             raise UnavailableError(f"the network cannot be reached: {error}") from error
+        atexit.register(self._end_session)  # threads of the library that call Python at its end crash it
         self._node = Node(self._network.domain, str(self._session.zid()), self._node_name)
         self._stamp_call = self.stamps(self._node.token())
         await self.ask(self._begin)
@@ -120,6 +123,7 @@ class ZenohTransport:
                 for lane in (self._stops, self._data, self._calls):  # what was published before is sent yet
                     await lane.ask(lambda: None)
                 await self.ask(self._session.close)
+                atexit.unregister(self._end_session)
         except TimeoutError:
             log.warning("the network did not close in time; going on without")
         finally:
@@ -366,6 +370,12 @@ class ZenohTransport:
         finally:
             self._waiting.discard(waiting)
             self._calls.do(given_up.cancel)
+
+    def _end_session(self) -> None:
+        """The process ends: close, but not at any price."""
+        closing = threading.Thread(target=self._session.close, name="zenoh close", daemon=True)
+        closing.start()
+        closing.join(CLOSING_S)
 
     def _end_lanes(self) -> None:
         for lane in (self._stops, self._calls, self._data):
