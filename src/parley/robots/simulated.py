@@ -107,7 +107,10 @@ class SimulatedRobot:
             "rgb8",
             photograph.frame.rgb,
             photograph.stamp_s,
-            tuple(Detection(s.label, s.pixels, s.box, s.distance_m) for s in photograph.sightings),
+            tuple(
+                Detection(s.label, s.pixels, s.box, s.distance_m, s.x_m, s.y_m, s.span_m, s.confidence)
+                for s in photograph.sightings
+            ),
         )
 
     def people(self) -> tuple[SeenPerson, ...]:
