@@ -20,7 +20,7 @@ DEMOS = SOURCE / "demos"
 
 STORY_WORDS = {
     "john", "david", "refrigerator", "fridge", "bottle", "sofa", "couch", "plant", "tv", "television",
-    "bookshelf", "nurse", "dining",
+    "bookshelf", "nurse", "dining", "bag", "parking", "elevator",
 }  # fmt: skip
 """What the thesis's demonstrations are about, whether or not the data say so."""
 
@@ -30,6 +30,7 @@ EVERYDAY_WORDS = {
     "small", "large", "little", "tall", "big", "long", "low", "round", "left", "right", "middle", "front",
     "back", "first", "corner", "end", "side", "head", "foot", "counter", "desk", "window", "stand", "screen",
     "set", "tree", "top", "shelf", "books", "north", "east", "south", "west",
+    "area", "b", "c", "black", "blue", "green", "grey", "red", "white",
 }  # fmt: skip
 """Words of the demonstrations' data that programs and neutral examples need as well."""
 

@@ -304,6 +304,11 @@ class SystemConfig(BaseModel, TextFile):
         return self.data_dir / "proposals.db" if self.data_dir is not None else None
 
     @property
+    def found_file(self) -> Path | None:
+        """What robots found and no map knew, None if it is not kept."""
+        return self.data_dir / "found_things.json" if self.data_dir is not None else None
+
+    @property
     def audit_file(self) -> Path | None:
         """The log of who did what, None if it is not kept."""
         return self.data_dir / "audit.db" if self.data_dir is not None else None

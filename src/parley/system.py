@@ -75,9 +75,11 @@ from parley.umrf.action import ActionSpec, RunHandle
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.discovery import ActionFolder, LiveActions, installed_actions
 from parley.umrf.model import GraphState
+from parley.world.found import FoundThings
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject, ObjectMap
-from parley.world.occupancy import OccupancyMap
+from parley.world.occupancy import NO_MAP, OccupancyMap
+from parley.world.whereabouts import Footprint
 
 if TYPE_CHECKING:  # only where a world is simulated
     from parley.sim.simulator import Simulator
@@ -99,8 +101,19 @@ IN_DOUBT: Final = (
 class WorldView:
     """What one robot knows about its surroundings."""
 
-    objects: ObjectMap
+    system: System
     occupancy: OccupancyMap
+
+    @property
+    def objects(self) -> ObjectMap:
+        """The objects people may name, with what was found."""
+        return self.system.known
+
+    async def note(self, label: str, place: Footprint) -> MapObject | None:
+        """See `parley.actions.context.World.note`."""
+        if self.occupancy is not NO_MAP and not self.occupancy.is_free(place.x_m, place.y_m):
+            return None
+        return await self.system.found.note(label, place, self.system.objects)
 
 
 class System:
@@ -146,6 +159,8 @@ class System:
         """The robots, the time they live in, and their maps."""
         self.clock = self.fleet.clock
         self.objects = objects or (world.object_map() if world is not None else ObjectMap())
+        self.found = FoundThings()
+        """What robots found besides."""
         self.rules = RuleBook(self.clock)
         """What robots may do."""
         installed = installed_actions()
@@ -180,6 +195,11 @@ class System:
         await self._stack.aclose()
 
     @property
+    def known(self) -> ObjectMap:
+        """What people may name: the object map, with what robots found."""
+        return self.found.added_to(self.objects)
+
+    @property
     def robot_names(self) -> tuple[str, ...]:
         """The robots of this world."""
         return self.fleet.names
@@ -206,6 +226,7 @@ class System:
         self._stack.push_async_callback(asyncio.to_thread, self.stop_line.close)
         if isinstance(self.language, AbstractAsyncContextManager):
             await enter(self.language)
+        self.found = await asyncio.to_thread(FoundThings, config.found_file)
         keeper = RuleKeeper(self.rules, config.rules_path)
         self.store = await enter(await MemoryStore.open(config.memory_file or ":memory:", clock))
         file = config.journal_file or ":memory:"
@@ -273,8 +294,7 @@ class System:
         await keeper.note_asked(())
         await self._open_actions(notices)
         views: Mapping[str, WorldView] = {name: self._view(name) for name in self.robot_names}
-        maps = {name: (view.occupancy, view.objects) for name, view in views.items()}
-        await enter(MapService(transport, maps))
+        await enter(MapService(transport, views))
         await self._listen_to_stops()
         watchdog = LoopWatchdog(self.stop_line, self.robot_names, clock, self._tell_all)
         watchdog.open()
@@ -398,7 +418,7 @@ class System:
         return engine
 
     def _view(self, robot: str) -> WorldView:
-        return WorldView(self.objects, self.fleet.occupancy(robot))
+        return WorldView(self, self.fleet.occupancy(robot))
 
     async def _judge(
         self,
@@ -422,7 +442,7 @@ class System:
         )
 
     def _objects_of(self, _robot: str) -> Sequence[MapObject]:
-        return self.objects.objects
+        return self.known.objects
 
 
 def _simulated(world: WorldFile | None, config: SystemConfig, occupancy: OccupancyMap | None) -> Fleet:

@@ -19,8 +19,10 @@ from parley.robots.simulated import SimulatedRobot
 from parley.sim.floor_plan import survey
 from parley.sim.simulator import Simulator
 from parley.umrf.motion import Motion
-from parley.world.object_map import ObjectMap
+from parley.world.found import FoundThings
+from parley.world.object_map import MapObject, ObjectMap
 from parley.world.occupancy import OccupancyMap
+from parley.world.whereabouts import Footprint
 from tests.sim.worlds import two_rooms
 
 
@@ -84,10 +86,20 @@ class Person:
         self.memories.append(entry)
 
 
-@dataclass(frozen=True)
+@dataclass
 class View:
-    objects: ObjectMap
+    """Implements `World`; what is noted is kept."""
+
+    base: ObjectMap
     occupancy: OccupancyMap
+    found: FoundThings = field(default_factory=FoundThings)
+
+    @property
+    def objects(self) -> ObjectMap:
+        return self.found.added_to(self.base)
+
+    async def note(self, label: str, place: Footprint) -> MapObject | None:
+        return await self.found.note(label, place, self.base)
 
 
 @dataclass

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from contextlib import suppress
 from dataclasses import replace
 
@@ -11,11 +12,13 @@ import pytest
 from parley.actions.inspect import FEED, inspect
 from parley.errors import ActionFailure, FailureCode, LanguageError
 from parley.language.base import InspectionReport
+from parley.language.builtin.engine import BuiltinLanguage
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage, Detection
 from parley.umrf.action import Outcome
 from tests.actions.room import Room, room
 from tests.memory.photos import opened
+from tests.sim.worlds import box
 
 SEEN = InspectionReport("I can see a green crate.", found=True, wanted="green crate")
 MISSING = InspectionReport("I cannot see a cup.", found=False, wanted="cup")
@@ -200,3 +203,34 @@ async def test_what_people_told_goes_along_and_a_rule_that_applies_needs_attenti
         with pytest.raises(ActionFailure, match="Kui näed pragu") as caught:
             await inspect(here.context, "the crate")
         assert caught.value.code is FailureCode.ATTENTION
+
+
+async def test_what_should_not_be_there_is_an_alarm_and_then_on_the_map_where_it_was_seen() -> None:
+    bag = box("bag_1", 2.2, 1.4, (0.4, 0.3, 0.3), label="bag")
+    async with room({"add": [bag]}, BuiltinLanguage()) as here:
+        with pytest.raises(ActionFailure) as caught:
+            await inspect(here.context, "suspicious bags")
+        assert (caught.value.code, caught.value.details["found"]) == (FailureCode.ATTENTION, ["bag"])
+        (found,) = (item for item in here.view.objects.objects if item.class_name == "bag")
+        assert math.dist((found.x_m, found.y_m), (2.2, 1.4)) < 0.2
+        assert [entry.name for entry in here.person.memories] == ["bag_sighting", "picture of the bag"]
+        assert "(2.2, 1.4)" in here.person.memories[0].data or "(2.1, 1.4)" in here.person.memories[0].data
+
+
+async def test_what_is_moved_is_found_where_it_is_now() -> None:
+    bag = box("bag_1", 2.2, 1.4, (0.4, 0.3, 0.3), label="bag")
+    async with room({"add": [bag]}, BuiltinLanguage()) as here:
+        for x, y in ((2.2, 1.4), (2.4, 0.4)):
+            here.simulator.change({"move": {"bag_1": (x, y, 0.0)}})
+            with pytest.raises(ActionFailure):
+                await inspect(here.context, "suspicious bags")
+            (found,) = (item for item in here.view.objects.objects if item.class_name == "bag")
+            assert math.dist((found.x_m, found.y_m), (x, y)) < 0.3
+
+
+async def test_nothing_amiss_is_no_failure_and_leaves_nothing_behind() -> None:
+    async with room(None, BuiltinLanguage()) as here:
+        looked = await inspect(here.context, "suspicious bags")
+        assert isinstance(looked, Outcome) and looked.result
+        assert here.person.memories == []
+        assert here.person.told[0].startswith("I see no suspicious bags.")

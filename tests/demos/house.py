@@ -67,7 +67,7 @@ class House:
     def distance_m(self, object_id: str, robot: str = "") -> float:
         """From the robot's middle to an object's bounding box."""
         pose = self.system.robots[robot or self.robot].pose()
-        thing = self.system.objects.get(object_id)
+        thing = self.system.known.get(object_id)
         assert thing is not None
         dx = max(abs(pose.x_m - thing.x_m) - thing.width_m / 2, 0.0)
         dy = max(abs(pose.y_m - thing.y_m) - thing.height_m / 2, 0.0)

@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Final, Protocol
+from typing import Any, Protocol
 
 from parley.clock import Clock
 from parley.language.base import Language
@@ -14,13 +14,11 @@ from parley.memory.pictures import pixels_to_jpeg
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage, Robot
 from parley.umrf.action import RunHandle
-from parley.world.object_map import ObjectMap
+from parley.world.object_map import MapObject, ObjectMap
 from parley.world.occupancy import OccupancyMap
+from parley.world.whereabouts import NEAR_M, Footprint, called
 
-__all__ = ["NEAR_M", "ActionContext", "Display", "MemoryAccess", "Operator", "World"]
-
-NEAR_M: Final = 2.0
-"""A thing on the map that is no farther away may be named to say where the robot stands."""
+__all__ = ["ActionContext", "Display", "MemoryAccess", "Operator", "World"]
 
 
 class Operator(Protocol):
@@ -72,6 +70,14 @@ class World(Protocol):
         """Where there is free floor."""
         ...
 
+    async def note(self, label: str, place: Footprint) -> MapObject | None:
+        """Put something that was found on the object map, or to where it was moved.
+
+        Returns:
+            It, as it stands on the map from now on; None if it stands in or on something that is there.
+        """
+        ...
+
 
 @dataclass(frozen=True, slots=True)
 class ActionContext:
@@ -110,10 +116,8 @@ class ActionContext:
         distance_m, nearest = min(distances, key=lambda pair: pair[0], default=(math.inf, None))
         if nearest is None:
             return f"at x {pose.x_m:.1f} m, y {pose.y_m:.1f} m"
-        name = nearest.description or nearest.class_name
-        return (
-            f"near the {name}" if distance_m <= NEAR_M else f"about {distance_m:.0f} metres from the {name}"
-        )
+        name = called(nearest.description or nearest.class_name)
+        return f"near {name}" if distance_m <= NEAR_M else f"about {distance_m:.0f} metres from {name}"
 
     def remember(self, name: str, text: str, *, info: str = "", own: bool = False) -> None:
         """Remember something this robot saw or did.

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
-from typing import Final
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Final
 
 from parley.actions.context import ActionContext
 from parley.errors import ActionFailure, FailureCode, LanguageError
-from parley.robots.base import CameraImage
+from parley.language.base import InspectionReport
+from parley.robots.base import CameraImage, Detection
 from parley.umrf.action import Outcome, action
 from parley.world.object_map import ObjectMap
+from parley.world.whereabouts import Footprint, called, nearest
 
 __all__ = ["FEED", "Inspection", "inspect"]
 
@@ -49,30 +52,65 @@ async def inspect(ctx: ActionContext, inspect: str) -> Inspection | Outcome:
     """
     image = await ctx.robot.image()
     ctx.display.show(FEED, image, {"request": inspect})
+    told = await _told(ctx, inspect)
     try:
-        report = await ctx.language.inspect(image, inspect, await _told(ctx, inspect))
+        report = await ctx.language.inspect(image, inspect, told, ctx.world.objects)
     except LanguageError as error:
         raise ActionFailure(
             FailureCode.UNAVAILABLE, "I took the picture, but I cannot tell what is in it just now."
         ) from error
     ctx.operator.tell(report.text)
+    found = await _kept(ctx, report, image)
     if report.rules:
         text = f"{report.text} You told me: “{'” and “'.join(report.rules)}”."
-        raise ActionFailure(FailureCode.ATTENTION, text, {"wanted": report.wanted, "rules": [*report.rules]})
-    if report.found is False and report.unwanted and not ctx.run.result_asked:
-        return Outcome(True, {"inspection_result": report.text}, _facts(image))  # as it should be
-    if report.found is False:
-        failure = _not_seen(image, report.wanted or inspect, report.text, ctx.world.objects)
-        if failure.code is FailureCode.NO_MATCH and ctx.run.result_asked:  # then it is an answer
-            return Outcome(False, {"inspection_result": report.text}, _facts(image))
-        raise failure
-    if report.attention or (report.found and report.unwanted and not ctx.run.result_asked):
-        raise ActionFailure(FailureCode.ATTENTION, report.text, {"wanted": report.wanted})
-    if report.found is None and ctx.run.result_asked:  # what depends on it is not done by guessing
-        raise ActionFailure(FailureCode.ATTENTION, report.text, {"wanted": inspect})
-    if report.found and report.wanted:
-        _note_sighting(ctx, report.wanted, image)
+        raise _alarm(text, report, found, rules=[*report.rules])
+    if ctx.run.result_asked:
+        return _answered(ctx, inspect, image, report, found)
+    if report.attention or (report.found and report.unwanted):
+        raise _alarm(report.text, report, found)
+    if report.found is False and not report.unwanted:
+        raise _not_seen(image, report.wanted or inspect, report.text, ctx.world.objects)
     return Outcome(True, {"inspection_result": report.text}, _facts(image))
+
+
+def _answered(
+    ctx: ActionContext, request: str, image: CameraImage, report: InspectionReport, found: Sequence[str]
+) -> Outcome:
+    """The answer to a question of the plan.
+
+    Raises:
+        ActionFailure: Nobody can tell; what depends on it is not done by guessing.
+    """
+    if report.found is None:
+        raise _alarm(report.text, replace(report, wanted=request), found)
+    if not report.found and not report.unwanted:
+        failure = _not_seen(image, report.wanted or request, report.text, ctx.world.objects)
+        if failure.code is not FailureCode.NO_MATCH:
+            raise failure
+    return Outcome(report.found, {"inspection_result": report.text}, _facts(image))
+
+
+def _alarm(text: str, report: InspectionReport, found: Sequence[str], **more: Any) -> ActionFailure:
+    """A person should decide what follows."""
+    details = {"wanted": report.wanted} | ({"found": [*found]} if found else {}) | more
+    return ActionFailure(FailureCode.ATTENTION, text, details)
+
+
+async def _kept(ctx: ActionContext, report: InspectionReport, image: CameraImage) -> list[str]:
+    """Take down what was found: on the map, for all robots to go to, and in the memory, with its picture."""
+    names: list[str] = []
+    walk_about = {person.name for person in ctx.robot.people()}
+    for thing in report.things:
+        name = thing.label
+        stays = name not in walk_about and not name.startswith("robot ")
+        if stays and thing.x_m is not None and thing.y_m is not None:
+            placed = await ctx.world.note(name, Footprint(thing.x_m, thing.y_m, *thing.span_m))
+            name = placed.description if placed is not None else name
+        _note_sighting(ctx, name, thing, image)
+        names.append(name)
+    if report.found and report.wanted and not (report.things or report.unwanted):
+        _note_sighting(ctx, report.wanted, None, image)
+    return names
 
 
 async def _told(ctx: ActionContext, wanted: str) -> list[str]:
@@ -89,10 +127,15 @@ def _facts(image: CameraImage) -> dict[str, list[str]]:
     return {"seen": list(seen)} if seen else {}
 
 
-def _note_sighting(ctx: ActionContext, wanted: str, image: CameraImage) -> None:
-    """For all robots: what was found, how it looks, where this robot stood; the newest replaces the rest."""
+def _note_sighting(ctx: ActionContext, wanted: str, thing: Detection | None, image: CameraImage) -> None:
+    """For all robots: what was found, where, how it looks; the newest replaces the rest."""
     name = "_".join(re.findall(r"\w+", wanted.lower()))[:150]
     sentence = f"I saw the {wanted} from where I stood, {ctx.whereabouts()}."
+    if thing is not None and thing.x_m is not None and thing.y_m is not None:
+        sentence = f"I saw the {wanted} at the point ({thing.x_m:.1f}, {thing.y_m:.1f})"
+        others = (item for item in ctx.world.objects.objects if item.description != wanted)
+        by = nearest(thing.x_m, thing.y_m, others)
+        sentence += f", by {called(by.description)}." if by is not None else "."
     ctx.remember(f"{name}_sighting", sentence, info=f"Where {ctx.actor} saw the {wanted}")
     ctx.remember_picture(f"picture of the {wanted[:150]}", image, info=f"The {wanted}, as {ctx.actor} saw it")
 

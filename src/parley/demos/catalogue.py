@@ -24,7 +24,7 @@ from parley.world.occupancy import OccupancyMap
 
 __all__ = ["DEMOS", "Demo", "demo_folder", "load_demo"]
 
-DEMOS: Final = {"nursing-home": "nursing_home"}
+DEMOS: Final = {"nursing-home": "nursing_home", "parking": "parking"}
 """Name on the command line -> folder."""
 
 
@@ -88,6 +88,8 @@ class Demo:
         more = tuple(
             RobotEntry(name=name, model=first.model, pose=pose) for name, pose in story.robots.items()
         )
+        if story.ask_first:
+            config = config.changed({"approval": "ask_first"})
         own = replace(self, world=world.model_copy(update={"robots": (*world.robots, *more)}))
         return own.system(config, variant, actions=with_faults(BUILTIN_ACTIONS, story.faults))
 

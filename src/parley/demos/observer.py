@@ -17,7 +17,7 @@ from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.incident import Incident
 from parley.messages.memory import MemoryEvent
 from parley.messages.ros import String
-from parley.messages.status import ActorStatus, GraphEvent, PlanUpdate, Rejection, StopReport
+from parley.messages.status import ActorStatus, GraphEvent, PlanProposal, PlanUpdate, Rejection, StopReport
 from parley.transport.base import Transport
 
 __all__ = ["Observer"]
@@ -51,6 +51,8 @@ class Observer(Node):
         """The newest state of each graph."""
         self.plans: dict[str, PlanUpdate] = {}
         """The newest plan of each robot."""
+        self.proposed: dict[str, PlanProposal] = {}
+        """The newest plan of each robot that was shown for a yes."""
         self.incidents: dict[str, Incident] = {}
         """The newest form of each record of a failure, oldest failure first."""
         self.memory_events: list[MemoryEvent] = []
@@ -174,6 +176,9 @@ class Observer(Node):
     async def _on_plan(self, message: String) -> None:
         raw = json.loads(message.data)
         if raw.get("kind") != "update":
+            if raw.get("kind") == "proposal":
+                proposal = PlanProposal.model_validate(raw)
+                self.proposed[proposal.target] = proposal
             await self._note("proposal", robot=raw.get("target", ""))
             return
         update = PlanUpdate.model_validate(raw)

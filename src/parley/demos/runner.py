@@ -25,7 +25,8 @@ class StoryBroken(Exception):  # noqa: N818 - an outcome, not an error of the pr
 
     Attributes:
         reason: One word: the code of the failure behind it, or `timed_out`, `not_asked`, `other_question`,
-            `other_reply`, `other_plan`, `not_remembered`, `elsewhere`, `not_shown`, `not_finished`.
+            `other_reply`, `other_plan`, `not_told`, `not_remembered`, `elsewhere`, `not_shown`,
+            `not_finished`.
         text: What was expected and what happened.
     """
 
@@ -130,6 +131,7 @@ class _Player:
         except BaseException:
             await self._stack.aclose()
             raise
+        self._system.simulator.on_event = lambda event: self._emit({"event": "world", "text": event.name})
         self._heard.clear()
 
     async def _close(self) -> None:
@@ -152,7 +154,7 @@ class _Player:
             if step.id and step.id in self._variant.leave_out:
                 continue
             if step.say is not None:
-                await self._say(step, step.say)
+                await self._say(step, self._variant.words.get(step.id, step.say))
             elif step.asked is not None:
                 await self._answer(step, step.asked)
             elif step.finished is not None:
@@ -163,6 +165,8 @@ class _Player:
                 self._emit({"event": "restart"})
                 await self._close()
                 await self._open()
+            if step.proposed:
+                await self._expect_plan(step.proposed, self._proposed)
 
     # -- the kinds of steps ----------------------------------------------------------------------------
 
@@ -170,26 +174,29 @@ class _Player:
         before_s = time.perf_counter()
         self._observer.say(text, self._robot)
         reply = await self._next_said(lambda said: said.type in ("response", "error"))
+        assert reply is not None
         self.latencies_s.append(time.perf_counter() - before_s)
         missing = [part for part in step.reply if not _is_in(part, reply.message)]
         if missing:
             raise StoryBroken("other_reply", f"“{text}” was answered “{reply.message}”; expected {missing}")
         if step.plan:
-            await self._expect_plan(step)
+            await self._expect_plan(step.plan, self._planned)
         if step.remembered:
             await self._expect_memory(step.remembered)
 
-    async def _expect_plan(self, step: StoryStep) -> None:
-        def planned() -> tuple[str, ...]:
-            plan = self._observer.plans.get(self._robot)
-            return tuple(item.action.name for item in plan.steps) if plan is not None else ()
+    def _planned(self) -> tuple[str, ...]:
+        plan = self._observer.plans.get(self._robot)
+        return tuple(item.action.name for item in plan.steps) if plan is not None else ()
 
+    def _proposed(self) -> tuple[str, ...]:
+        proposal = self._observer.proposed.get(self._robot)
+        return tuple(step.name for step in proposal.steps) if proposal is not None else ()
+
+    async def _expect_plan(self, wanted: tuple[str, ...], planned: Callable[[], tuple[str, ...]]) -> None:
         try:
-            await self._observer.until(lambda: planned() == step.plan, timeout_s=5.0)
+            await self._observer.until(lambda: planned() == wanted, timeout_s=5.0)
         except TimeoutError as error:
-            raise StoryBroken(
-                "other_plan", f"planned {list(planned())}, expected {list(step.plan)}"
-            ) from error
+            raise StoryBroken("other_plan", f"planned {list(planned())}, expected {list(wanted)}") from error
 
     async def _expect_memory(self, text: str) -> None:
         store = self._system.store
@@ -207,7 +214,8 @@ class _Player:
         if not all(any(_is_in(choice, offered) for offered in question.choices) for choice in step.choices):
             raise StoryBroken("other_question", f"offered {list(question.choices)}, not {list(step.choices)}")
         if step.answer:
-            self._observer.say(step.answer, self._robot, answer=True)
+            words = self._variant.words.get(step.id, step.answer)
+            self._observer.say(words, self._robot, answer=True)
 
     async def _question(self) -> ChatFeedback:
         """The robot's next open question; it is a break of the story if the plan ends without one."""
@@ -251,7 +259,7 @@ class _Player:
             self._expect_near(expected)
 
     def _expect_near(self, expected: Finished) -> None:
-        thing = self._system.objects.get(expected.near)
+        thing = self._system.known.get(expected.near)
         if thing is None:
             raise StoryBroken("elsewhere", f"there is no object {expected.near}")
         distance_m = _distance_m(self._system, self._robot, thing)
@@ -264,12 +272,22 @@ class _Player:
             self._system.simulator.change(step.change)
             self._emit({"event": "change", "text": step.note})
         elif step.told is not None:
-            parts = step.told
-            await self._next_said(lambda said: all(_is_in(part, said.message) for part in parts))
+            await self._hear(step.told)
         elif step.state:
             await self._wait(lambda: observer.state(self._robot) == step.state, f"the state {step.state}")
         else:
             await self._wait(lambda: self._newest_ending() == step.incident, f"a failure {step.incident}")
+
+    async def _hear(self, parts: tuple[str, ...]) -> None:
+        """Something that is told; it breaks the story if the plan ends, or is asked about, without it."""
+        runs = not self._idle()
+
+        def over() -> bool:
+            return runs and (self._idle() or self._observer.questions.newest(self._robot) is not None)
+
+        found = await self._next_said(lambda said: all(_is_in(part, said.message) for part in parts), over)
+        if found is None:
+            raise StoryBroken(self._last_failure() or "not_told", f"nothing was told of {list(parts)}")
 
     def _newest_ending(self) -> str:
         mine = [incident for incident in self._observer.incidents.values() if incident.robot == self._robot]
@@ -284,8 +302,13 @@ class _Player:
     def _last_failure(self) -> str:
         return self._observer.failures[-1].code.value if self._observer.failures else ""
 
-    async def _next_said(self, wanted: Callable[[ChatFeedback], bool]) -> ChatFeedback:
-        """The next thing of this kind that the robot says, after what was heard of it before."""
+    async def _next_said(
+        self, wanted: Callable[[ChatFeedback], bool], over: Callable[[], bool] = lambda: False
+    ) -> ChatFeedback | None:
+        """The next thing of this kind that the robot says, after what was heard of it before.
+
+        None if it is `over` and was not said.
+        """
         found: list[ChatFeedback] = []
 
         def look() -> bool:
@@ -298,8 +321,8 @@ class _Player:
             self._heard[self._robot] = heard
             return bool(found)
 
-        await self._wait(look, "something that the robot says")
-        return found[0]
+        await self._wait(lambda: look() or over(), "something that the robot says")
+        return found[0] if found else None
 
     async def _wait(self, condition: Callable[[], bool], what: str) -> None:
         try:

@@ -65,6 +65,8 @@ class StoryStep(_Entry):
     """a memory with this text is stored,"""
     plan: tuple[str, ...] = ()
     """and these actions are planned, in this order."""
+    proposed: tuple[str, ...] = ()
+    """With any step: these actions are shown and wait for a yes then."""
     asked: tuple[str, ...] | None = None
     """The robot asks something that has each of these texts in it ..."""
     choices: tuple[str, ...] = ()
@@ -105,6 +107,8 @@ class Variant(_Entry):
     world: WorldChanges = Field(default_factory=WorldChanges)
     answers: str | None = None
     """The operator answers every question with this."""
+    words: dict[str, str] = Field(default_factory=dict)
+    """What the operator says or answers instead, by the ids of steps."""
     leave_out: tuple[str, ...] = ()
     """Ids of steps that do not happen."""
     fails: str = ""
@@ -121,6 +125,8 @@ class Story(_Entry, TextFile):
     """What is different in the world from the start."""
     robots: dict[str, PoseTuple] = Field(default_factory=dict)
     """More robots, of the first one's model, by name, and where they start."""
+    ask_first: bool = False
+    """Whether plans wait for a yes."""
     faults: dict[str, tuple[Fault, ...]] = Field(default_factory=dict)
     """Actions that fail at first, by name."""
     examples: tuple[str, ...] = ()

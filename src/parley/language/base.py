@@ -16,9 +16,9 @@ from parley.language.dialogue.state import Dialogue
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.messages.status import ActionInfo
-from parley.robots.base import CameraImage
+from parley.robots.base import CameraImage, Detection
 from parley.world.geometry import Pose2D
-from parley.world.object_map import MapObject
+from parley.world.object_map import MapObject, ObjectMap
 
 __all__ = [
     "DraftHandler",
@@ -147,6 +147,8 @@ class InspectionReport:
     """Whether a person should decide what follows."""
     unwanted: bool = False
     """Whether what was looked for should not be there: then it is well not to find it."""
+    things: tuple[Detection, ...] = ()
+    """What was found of it, or stands where nothing should; also where it was looked for elsewhere."""
     rules: tuple[str, ...] = ()
     """Which of the rules that were given apply to what is seen, word for word."""
 
@@ -206,7 +208,9 @@ class Language(Protocol):
         """Which object a description means, seen from `pose`."""
         ...
 
-    async def inspect(self, image: CameraImage, request: str, rules: Sequence[str] = ()) -> InspectionReport:
+    async def inspect(
+        self, image: CameraImage, request: str, rules: Sequence[str] = (), known: ObjectMap | None = None
+    ) -> InspectionReport:
         """What a picture shows, with regard to `request`.
 
         Args:
@@ -214,6 +218,7 @@ class Language(Protocol):
             request: What to look for or at.
             rules: What people told the robot, in their words; an engine that cannot tell which of it applies
                 names none.
+            known: The map, for telling what stands in which place.
         """
         ...
 

@@ -24,7 +24,7 @@ from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage
 from parley.world.geometry import Pose2D
-from parley.world.object_map import MapObject
+from parley.world.object_map import MapObject, ObjectMap
 
 __all__ = ["Question", "ScriptedLanguage"]
 
@@ -102,7 +102,9 @@ class ScriptedLanguage:
         answer: Grounding = await self._answer("ground", description, objects, pose)
         return answer
 
-    async def inspect(self, image: CameraImage, request: str, rules: Sequence[str] = ()) -> InspectionReport:
+    async def inspect(
+        self, image: CameraImage, request: str, rules: Sequence[str] = (), known: ObjectMap | None = None
+    ) -> InspectionReport:
         """See `Language.inspect`."""
         answer: InspectionReport = await self._answer("inspect", image, request, rules)
         return answer

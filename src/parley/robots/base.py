@@ -74,6 +74,13 @@ class Detection:
     """left, top, right, bottom in pixels (right and bottom exclusive)."""
     distance_m: float | None = None
     """Median distance, where the camera knows depth."""
+    x_m: float | None = None
+    y_m: float | None = None
+    """The middle of what is seen of it, in the map frame, where the camera knows depth."""
+    span_m: tuple[float, float] = (0.0, 0.0)
+    """How far that reaches along the map's x and y."""
+    confidence: float | None = None
+    """How sure the detector is, 0 to 1; None: it does not say."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -83,10 +83,10 @@ class SimulatedRobot:
         return self._navigator.way_ahead() if self._navigator is not None else ()
 
     def battery(self) -> float | None:
-        """See `Robot.battery`: it empties evenly over the model's endurance, whatever the robot does."""
+        """See `Robot.battery`: it empties evenly over the model's endurance while anything is to be done."""
         if self._model.endurance_s is None:
             return None
-        return max(0.0, 1.0 - self._simulator.clock.now_s() / self._model.endurance_s)
+        return max(0.0, 1.0 - self._simulator.worked_s / self._model.endurance_s)
 
     def drive(self, velocity: Velocity) -> None:
         """See `Robot.drive`; does nothing while halted."""
@@ -107,7 +107,10 @@ class SimulatedRobot:
             "rgb8",
             photograph.frame.rgb,
             photograph.stamp_s,
-            tuple(Detection(s.label, s.pixels, s.box, s.distance_m) for s in photograph.sightings),
+            tuple(
+                Detection(s.label, s.pixels, s.box, s.distance_m, s.x_m, s.y_m, s.span_m, s.confidence)
+                for s in photograph.sightings
+            ),
         )
 
     def people(self) -> tuple[SeenPerson, ...]:

@@ -131,20 +131,21 @@ def _add_robot(spec: mujoco.MjSpec, entry: RobotEntry) -> None:
 def _add_hull(body: mujoco.MjsBody, model: RobotModel) -> None:
     """A round collision hull, and over it what makes the robot look like one."""
     radius, height = model.radius_m, model.height_m
+    base = min(model.base_height_m or height * 0.55, height)
     colour = _rgba(ImageColor.getrgb(model.colour)[:3])
     clearance = 0.01
     body.add_geom(
         type=mujoco.mjtGeom.mjGEOM_CYLINDER,
-        size=(radius, (height * 0.55 - clearance) / 2, 0),
-        pos=(0, 0, clearance + (height * 0.55 - clearance) / 2),
+        size=(radius, (base - clearance) / 2, 0),
+        pos=(0, 0, (base + clearance) / 2),
         mass=model.mass_kg,
         rgba=colour,
         **_SOLID,
     )
     body.add_geom(
         type=mujoco.mjtGeom.mjGEOM_CYLINDER,
-        size=(radius * 0.45, height * 0.225, 0),
-        pos=(0, 0, height * 0.775),
+        size=(radius * 0.45, (height - base) / 2, 0),
+        pos=(0, 0, (height + base) / 2),
         mass=0,
         rgba=(0.75, 0.77, 0.8, 1),
         **_SEEN_ONLY,
@@ -152,7 +153,11 @@ def _add_hull(body: mujoco.MjsBody, model: RobotModel) -> None:
     body.add_geom(  # shows where the front is
         type=mujoco.mjtGeom.mjGEOM_BOX,
         size=(radius * 0.12, radius * 0.3, height * 0.05),
-        pos=(radius * 0.85, 0, height * 0.6),
+        pos=(
+            radius * (0.85 if model.base_height_m is None else 0.5),
+            0,
+            height * (0.6 if model.base_height_m is None else 0.92),
+        ),
         mass=0,
         rgba=(0.95, 0.45, 0.1, 1),
         **_SEEN_ONLY,

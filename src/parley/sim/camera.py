@@ -23,6 +23,8 @@ Floats = NDArray[np.float32]
 
 _SUN = np.array([0.42, 0.28, 0.86], dtype=np.float32)
 _TILE_M = 0.5
+_DOUBTED_PX = 30
+"""Of something that covers so few pixels a detector is as sure as not."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -35,6 +37,8 @@ class Frame:
     """Shape (height, width); -1: nothing, 0: the floor."""
     distances_m: Floats
     """Shape (height, width), along the ray; `inf` where there is nothing."""
+    points_m: Floats
+    """Shape (height, width, 3): what each pixel shows, in the map frame; the eye where there is nothing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +52,13 @@ class Sighting:
     """left, top, right, bottom in pixels (right and bottom exclusive)."""
     distance_m: float
     """Median over its pixels."""
+    x_m: float
+    y_m: float
+    """The middle of what is seen of it, in the map frame."""
+    span_m: tuple[float, float]
+    """How far that reaches along the map's x and y."""
+    confidence: float
+    """How sure a detector would be of it, 0 to 1: the less it sees of it, the less."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -130,6 +141,7 @@ class RayCaster:
             (np.clip(colours, 0.0, 1.0) * 255).astype(np.uint8).reshape(*shape, 3),
             bodies.reshape(shape),
             hits.distances.reshape(shape),
+            points.reshape(*shape, 3),
         )
 
     def _cast(self, eye: NDArray[np.float64], rays: NDArray[np.float64], exclude: int) -> _Hits:
@@ -177,8 +189,12 @@ def sightings(
         name, words = names[int(body_id)]
         rows, columns = np.nonzero(frame.body_ids == body_id)
         box = int(columns.min()), int(rows.min()), int(columns.max()) + 1, int(rows.max()) + 1
-        distance = float(np.median(frame.distances_m[rows, columns]))
-        seen.append(Sighting(name, words, int(pixels), box, round(distance, 3)))
+        distance = round(float(np.median(frame.distances_m[rows, columns])), 3)
+        low, high = (edge(frame.points_m[rows, columns, :2], axis=0) for edge in (np.min, np.max))
+        x, y = np.round((low + high) / 2, 3).tolist()
+        span = tuple(np.round(high - low, 3).tolist())
+        sure = round(float(pixels / (pixels + _DOUBTED_PX)), 2)
+        seen.append(Sighting(name, words, int(pixels), box, distance, x, y, span, sure))
     return tuple(sorted(seen, key=lambda sighting: (-sighting.pixels, sighting.name)))
 
 

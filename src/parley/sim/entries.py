@@ -186,6 +186,8 @@ class WorldChanges(Entry):
     """Things or robots and their other poses."""
     camera: dict[str, Literal["working", "broken"]] = Field(default_factory=dict)
     """Robots and the state of their cameras."""
+    cancel: tuple[Name, ...] = ()
+    """Events that do not happen."""
 
     @classmethod
     def parse(cls, raw: Mapping[str, Any], file: str = "changes") -> Self:

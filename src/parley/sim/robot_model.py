@@ -52,6 +52,8 @@ class RobotModel(_Part):
     max_turn_acceleration_radps2: float = Field(default=3.0, gt=0)
     endurance_s: float | None = Field(default=None, gt=0)
     """How long a full battery lasts; None: the robot cannot tell how full it is."""
+    base_height_m: float | None = Field(default=None, gt=0)
+    """Up to where it is as wide as its radius; above is a slim body. None: a little over half its height."""
     colour: str = "#2b2f36"
     camera: CameraModel | None = CameraModel()
     lidar: LidarModel = LidarModel()
@@ -61,6 +63,18 @@ PRESETS: Mapping[str, RobotModel] = MappingProxyType(
     {
         "turtlebot3_waffle": RobotModel(
             radius_m=0.2, height_m=0.3, max_speed_mps=0.26, max_turn_radps=1.82, endurance_s=2.0 * 3600
+        ),
+        "tiago": RobotModel(
+            radius_m=0.27,
+            height_m=1.2,
+            base_height_m=0.35,
+            mass_kg=70.0,
+            max_speed_mps=0.8,
+            max_turn_radps=1.4,
+            endurance_s=5.0 * 3600,
+            colour="#d9dde2",
+            camera=CameraModel(mount_height_m=1.1, mount_forward_m=0.12, pitch_rad=-0.42, fov_rad=1.1),
+            lidar=LidarModel(range_m=12.0, mount_height_m=0.2),
         ),
     }
 )

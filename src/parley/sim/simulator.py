@@ -21,9 +21,11 @@ import structlog
 from numpy.typing import NDArray
 
 from parley.clock import SimClock
+from parley.errors import FileFormatError
 from parley.sim.build import STEP_S, build_spec, robot_body, thing_body
 from parley.sim.camera import Frame, RayCaster, Sighting, sightings
 from parley.sim.entries import RobotEntry
+from parley.sim.events import Events, WorldEvent
 from parley.sim.floor_plan import bounds_m, survey
 from parley.sim.keeper import Keeper
 from parley.sim.lidar import Sweep, sweep
@@ -111,6 +113,11 @@ class Simulator:
         self._drawing: ThreadPoolExecutor | None = None
         self._artist: RayCaster | None = None
         self._world = world
+        self.worked_s = 0.0
+        """For how much of robot time anybody had something to do; the rest costs no battery."""
+        self._events = Events(world.events, seed)
+        self.on_event: Callable[[WorldEvent], None] = lambda _: None
+        """Told of everything that happens in the world by itself."""
         self._load(world)
         self._bases = {
             entry.name: _Base(
@@ -350,9 +357,18 @@ class Simulator:
             raise
 
     def _wanted(self) -> bool:
-        """Whether robot time should move: not while it is held, nor while nobody waits and nothing moves."""
+        """Whether robot time should move: not while it is held.
+
+        At a pace of its own it moves on even if nothing else does, as people's time does; as fast as the
+        machine can, only while something moves, somebody waits, or something is to happen at its time.
+        """
         if self._clock.held:
             return False
+        idle = self._speed is None and not self._events.timed
+        return not idle or self._busy()
+
+    def _busy(self) -> bool:
+        """Whether anybody waits or anything moves."""
         return self._clock.has_sleepers or self._moving()
 
     def _moving(self) -> bool:
@@ -362,8 +378,28 @@ class Simulator:
             return bool(np.abs(self._data.qvel).max() > _REST_MPS)
 
     def _step(self) -> None:
+        self.worked_s += BATCH_S if self._busy() else 0.0
         self._step_world(self._clock.now_s())
         self._clock.advance(BATCH_S)
+        self._happen()
+
+    def _happen(self) -> None:
+        """Let happen what is due."""
+        poses = {name: self.pose(name) for name in self._bases} if self._events.events else {}
+        for event in self._events.due(self._clock.now_s(), poses, self._place_of):
+            try:
+                self.change(event.change)
+            except FileFormatError as error:  # a person took away before what it is about
+                log.warning("world_event_impossible", name=event.name, error=str(error))
+                continue
+            log.info("world_event", name=event.name)
+            self.on_event(event)
+
+    def _place_of(self, thing: str) -> Pose2D | None:
+        try:
+            return self._world.base_of(self._world.thing(thing))
+        except KeyError:
+            return None
 
     def _step_world(self, now_s: float) -> None:
         with self._lock:

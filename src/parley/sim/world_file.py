@@ -15,6 +15,8 @@
     robots:
       - {name: A, model: turtlebot3_waffle, pose: [2.0, 1.0, 0.0]}
 
+What happens there by itself stands under `events` (see `parley.sim.events`).
+
 Metres and radians in the map frame. Unknown keys are refused, and every error names the file and the field.
 """
 
@@ -29,6 +31,7 @@ from pydantic import Field
 from parley.errors import FileFormatError
 from parley.files import TextFile, parse_yaml, validated
 from parley.sim.entries import Colour, Entry, Name, RobotEntry, Thing, Wall, WorldChanges
+from parley.sim.events import WorldEvent
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject, ObjectMap
 
@@ -47,6 +50,8 @@ class WorldFile(Entry, TextFile):
     walls: tuple[Wall, ...] = ()
     things: tuple[Thing, ...] = ()
     robots: tuple[RobotEntry, ...] = Field(min_length=1)
+    events: tuple[WorldEvent, ...] = ()
+    """What happens in it by itself."""
 
     @classmethod
     def parse(cls, text: str, file: str = "world file") -> Self:
@@ -57,6 +62,7 @@ class WorldFile(Entry, TextFile):
         """
         world = validated(cls, parse_yaml(text, file), file)._consistent(file)
         world._check_starts(file)
+        world._check_events(file)
         return world
 
     def with_changes(self, changes: WorldChanges | Mapping[str, Any], file: str = "changes") -> Self:
@@ -86,7 +92,10 @@ class WorldFile(Entry, TextFile):
             )
             for robot in self.robots
         ]
-        changed = self.model_copy(update={"things": (*things, *changes.add), "robots": tuple(robots)})
+        events = tuple(event for event in self.events if event.name not in changes.cancel)
+        changed = self.model_copy(
+            update={"things": (*things, *changes.add), "robots": tuple(robots), "events": events}
+        )
         return changed._consistent(file)
 
     def thing(self, name: str) -> Thing:
@@ -153,6 +162,7 @@ class WorldFile(Entry, TextFile):
             ("remove", changes.remove, things),
             ("move", changes.move, things | robots),
             ("camera", changes.camera, robots),
+            ("cancel", changes.cancel, {event.name for event in self.events}),
         ):
             for name in names:
                 if name not in known:
@@ -173,6 +183,23 @@ class WorldFile(Entry, TextFile):
                     raise FileFormatError(
                         file, f"robots[{index}].pose", f"{robot.name!r} would start in {name!r}"
                     )
+
+    def _check_events(self, file: str) -> None:
+        """Refuse events that cannot happen: what they change has to be there, one after the other."""
+        world, earlier = self, set[str]()
+        for index, event in enumerate(self.events):
+            field = f"events[{index}]"
+            if event.name in earlier:
+                raise FileFormatError(file, f"{field}.name", f"{event.name!r} is used twice")
+            if event.after is not None and event.after not in earlier:
+                raise FileFormatError(file, f"{field}.after", f"no earlier event is called {event.after!r}")
+            near = event.near
+            if near is not None and near.thing not in {thing.name for thing in world.things}:
+                raise FileFormatError(file, f"{field}.near.thing", f"the world has no {near.thing!r}")
+            if near is not None and near.robot not in ("", *(robot.name for robot in self.robots)):
+                raise FileFormatError(file, f"{field}.near.robot", f"the world has no robot {near.robot!r}")
+            world = world.with_changes(event.change, f"{file}: {field}.change")
+            earlier.add(event.name)
 
     def _consistent(self, file: str) -> Self:
         """Check what one entry alone cannot know."""

@@ -46,6 +46,8 @@ class MapObject:
     """Map-frame direction its usable side faces; None: it can be used from anywhere."""
     area: MapArea | None = None
     """A room as a goal: one stands in it, not before it."""
+    found: bool = False
+    """Whether a robot saw it there, and no map said so."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ import asyncio
 import base64
 import io
 from collections.abc import Mapping
-from typing import ClassVar
+from typing import ClassVar, Protocol
 
 from PIL import Image
 
@@ -24,17 +24,31 @@ from parley.world.occupancy import OccupancyMap
 __all__ = ["MapService", "map_info"]
 
 
+class KnownMap(Protocol):
+    """What one robot knows of its surroundings, as it is now."""
+
+    @property
+    def occupancy(self) -> OccupancyMap:
+        """The floor it drives by."""
+        ...
+
+    @property
+    def objects(self) -> ObjectMap:
+        """What stands on it."""
+        ...
+
+
 class MapService(Node):
     """Knows the maps of all robots of a system.
 
     Args:
         transport: Where it answers.
-        maps: Robot -> the floor it drives by, and what stands on it.
+        maps: By robot.
     """
 
     name: ClassVar[str] = "map_service"
 
-    def __init__(self, transport: Transport, maps: Mapping[str, tuple[OccupancyMap, ObjectMap]]) -> None:
+    def __init__(self, transport: Transport, maps: Mapping[str, KnownMap]) -> None:
         super().__init__(transport)
         self._maps = maps
 
@@ -52,8 +66,8 @@ class MapService(Node):
             return ChatResponse("{}")
         if robot not in self._maps:
             return ChatResponse("{}")
-        occupancy, objects = self._maps[robot]
-        info = await asyncio.to_thread(map_info, robot, occupancy, objects)
+        known = self._maps[robot]
+        info = await asyncio.to_thread(map_info, robot, known.occupancy, known.objects)
         return ChatResponse(encode(info))
 
 

@@ -12,6 +12,7 @@ from parley.language.builtin.decision import Answer, Ask, Control, Decision, Do,
 from parley.language.builtin.deeds import Builder
 from parley.language.builtin.facts import places, rule_of, told_of
 from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.listings import listing
 from parley.language.builtin.planner import Planner, contradicted, orders_of
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.skills import Skills
@@ -56,6 +57,9 @@ def decide(
     early = policy.beforehand(situation, whole, tokens, lexicon, told_in, reader, again)
     if early is not None:
         return early
+    listed = listing(situation.message, situation.objects, lexicon)
+    if listed is not None:
+        return Remember((listed,))
     rule = rule_of(parts, situation.message, lexicon)
     if rule is not None:
         return Remember((rule,))

@@ -272,6 +272,8 @@ class Builder(Ways):
             return self.wait(wish, values)
         if wish.frame == "LOOK" and "K" in values and wish.all("K")[0].words[0] in ("if", "whether", "that"):
             return self._checked(wish, values)
+        if wish.frame == "LOOK" and "K" in values and {*"TL"} & {*values}:
+            return self._looked_through(values)
         for role in "GH":
             if wish.frame == "FACE" and role in values:
                 values["T"] = values.pop(role)
@@ -309,6 +311,18 @@ class Builder(Ways):
         self.last_thing = thing or self.last_thing
         looked = check(self, wish.all("K")[0].words[1:], values["K"].argument.partition(" ")[2])
         return looked if isinstance(looked, Ask) else [*way, *looked.deeds]
+
+    def _looked_through(self, values: dict[str, Value]) -> list[Deed] | Ask:
+        """Looking through something for something else: "check the yard for leaks"."""
+        place, skill = values.get("T") or values["L"], self.skills.get("LOOK")
+        slot = skill.roles.get("T") or skill.roles.get("K") if skill is not None else None
+        if skill is None or not slot:
+            return Ask(f"I have no action to look through {place.said}.")
+        sought = values["K"].argument.removeprefix("for ")
+        said = {"T": place.said, "K": f"for {sought}"}
+        deed = Deed("LOOK", skill, {slot: f"{place.argument} for {sought}"}, said)
+        self.last_check = deed
+        return [*self.way_to_thing(place), deed]
 
     def _steering(self, wish: Wish, values: dict[str, Value]) -> Ask | None:
         """What has to be said of a movement; "forward" and "back" may be in the verb."""

@@ -42,7 +42,7 @@ from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage
 from parley.world.geometry import Pose2D
-from parley.world.object_map import MapObject
+from parley.world.object_map import MapObject, ObjectMap
 
 __all__ = ["BuiltinLanguage"]
 
@@ -233,9 +233,11 @@ class BuiltinLanguage:
             return Grounding("match", found.things)
         return Grounding("ambiguous", found.things) if outcome else Grounding("none")
 
-    async def inspect(self, image: CameraImage, request: str, rules: Sequence[str] = ()) -> InspectionReport:
+    async def inspect(
+        self, image: CameraImage, request: str, rules: Sequence[str] = (), known: ObjectMap | None = None
+    ) -> InspectionReport:
         """See `Language.inspect`."""
-        return pictures.inspect(image, request)
+        return pictures.inspect(image, request, known)
 
     async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:
         """See `Language.read_reply`."""

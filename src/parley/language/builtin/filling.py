@@ -136,7 +136,7 @@ _ROLE_OF = {"place": "G", "person": "R", "thing": "T", "text": "X", "direction":
 
 
 def _parted(fillers: Sequence[Filler], slots: Slots) -> list[Filler]:
-    """With the number in front of a thing apart from it, where an input takes it: "20 bags of sand"."""
+    """With the number in front of a thing apart from it, where an input takes it: "20 boxes of sand"."""
     if not any(parameter.kind == "number" for parameter in slots.parameters.values()):
         return [*fillers]
     found: list[Filler] = []

@@ -10,7 +10,8 @@ from parley.language.base import Situation
 from parley.language.builtin.amounts import Amount, amount_of, direction_of
 from parley.language.builtin.decision import Ask, Deed, Note
 from parley.language.builtin.facts import Place, known_place
-from parley.language.builtin.lexicon import Lexicon, stem
+from parley.language.builtin.lexicon import Lexicon, stem, stems
+from parley.language.builtin.listings import told_set
 from parley.language.builtin.saying import as_said, with_article
 from parley.language.builtin.sets import Group, group
 from parley.language.builtin.skills import Skills
@@ -131,6 +132,7 @@ class Grounder:
         if near is not None:
             return self._one_of((near,))
         several = self._others(filler) or group(filler.words, objects, lexicon, self.left_out)
+        several = several or self._told_list(filler, mention)
         if several is not None:
             return self._several(several)
         described = picked(filler.words, objects, lexicon, self.situation.robot_pose)
@@ -256,6 +258,14 @@ class Grounder:
             return Group(doubt=f"Which ones do you mean by “{filler.text}”?")
         return Group(tuple(thing for thing in family.things if thing not in self.mentioned))
 
+    def _told_list(self, filler: Filler, mention: Mention) -> Group | None:
+        """The things of a list that was told, by what they were called there."""
+        if mention.kind == "one" or self.left_out:
+            return None
+        known = self.situation
+        things = told_set(filler.words, known.memory, known.objects, self.lexicon)
+        return Group(things) if things else None
+
     def _several(self, several: Group) -> Value | Ask:
         self.left_out = ()
         self.mentioned += several.things
@@ -297,16 +307,21 @@ class Grounder:
             if (
                 last is not None
                 and last.end == filler.start
-                and last.role in "TG"
+                and last.role in "TGL"
                 and filler.role in "TGLSRP"
             ):
                 words, said = (*last.words, *filler.words), f"{last.text} {filler.text}"
                 both = Filler(last.role, last.start, filler.end, last.head, words, last.share, said)
-                if self.is_placed(both):
+                if self.is_placed(both) or self._is_whole_name(both):
                     found[-1] = both
                     continue
             found.append(filler)
         return replace(wish, fillers=tuple(found))
+
+    def _is_whole_name(self, filler: Filler) -> bool:
+        """Whether a role is the name of one thing of the map, word for word; its parts alone may be none."""
+        said = stems(filler.words)
+        return sum(said == stems(item.description.split()) for item in self.situation.objects) == 1
 
     def is_called(self, filler: Filler) -> bool:
         """Whether a role is a name of something on the map, or of a set, and nothing else."""

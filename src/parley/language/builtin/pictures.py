@@ -1,28 +1,92 @@
-"""What a picture shows, in the words of the robot's own detector: what is there, never how it is."""
+"""What a picture shows, in the words of the robot's detector: what is there and where, never how it is."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
 
 from parley.errors import LanguageError
 from parley.language.base import InspectionReport
+from parley.language.builtin.judging import Asked, asked
 from parley.language.builtin.lexicon import lexicon, stem
+from parley.language.builtin.saying import with_article
+from parley.language.builtin.things import head_of, link
 from parley.robots.base import CameraImage, Detection
+from parley.umrf.kinds import is_word_for
+from parley.world.object_map import MapArea, MapObject, ObjectMap
+from parley.world.whereabouts import Footprint, Standing, nearest, standing
 
 __all__ = ["inspect"]
 
-_LEAST_PIXELS = 40
-"""Smaller finds are not trusted."""
-_ASKING = frozenset({"if", "whether", "that", "what", "how"})
-_THERE = frozenset(
-    {"there", "here", "visible", "present", "still", "in", "on", "at", "near", "by", "under", "behind"}
-)
-_SOMEBODY = frozenset({"somebody", "someone", "anybody", "anyone", "nobody", "person", "people"})
-_PERSONS = frozenset({"person", "human", "man", "woman", "child", "people"})
+_LEAST_PIXELS: Final = 40
+_LEAST_CONFIDENCE: Final = 0.5
+"""Smaller or less certain finds are not trusted."""
+_SURE: Final = 0.8
+"""What is less certain is said to be."""
+_SOMEBODY: Final = frozenset({"somebody", "someone", "anybody", "anyone", "nobody", "person", "people"})
+_PERSONS: Final = frozenset({"person", "human", "man", "woman", "child", "people"})
+_ANYTHING: Final = frozenset({"anything", "something", "nothing"})
+
+Place = MapObject | MapArea
 
 
-def inspect(image: CameraImage, request: str) -> InspectionReport:
-    """Say whether what is asked for is in a picture.
+@dataclass(frozen=True, slots=True)
+class _Scene:
+    """What is seen, with regard to the place that is asked about."""
+
+    seen: Sequence[Detection]
+    known: ObjectMap
+    place: Place | None
+
+    @property
+    def there(self) -> str:
+        """The place in words, behind what is said of it."""
+        return f" in {with_article(_name(self.place))}" if self.place is not None else ""
+
+    @property
+    def shown(self) -> str:
+        """All that is seen, but for the place itself."""
+        return ", ".join(dict.fromkeys(one.label for one in self.seen if one.label != _name(self.place)))
+
+    @property
+    def also(self) -> str:
+        """The same as a sentence; empty where nothing is seen in a place."""
+        shown = self.shown or ("" if self.place is not None else "nothing that I know")
+        return f" I can see: {shown}." if shown else ""
+
+    def of(self, found: Detection) -> Standing | None:
+        """Where something stands with regard to the place; None if nobody can tell, or no place is meant."""
+        if self.place is None or found.x_m is None or found.y_m is None:
+            return None
+        return standing(Footprint(found.x_m, found.y_m, *found.span_m), self.place)
+
+    def told(self, found: Detection, *, article: str = "") -> str:
+        """What was found, where it stands and how far away: "a red box at the edge of bay 1"."""
+        where = {"in": self.there, "edge": self.there.replace(" in ", " at the edge of ", 1)}
+        text = where.get(self.of(found) or "", "") or ("" if article else self._by(found))
+        text = "" if _name(self.place).lower() in found.label.lower() else text  # it says so itself
+        far = "" if found.distance_m is None else f", about {found.distance_m:.1f} m away"
+        unsure = found.confidence is not None and found.confidence < _SURE
+        return (
+            f"{'what may be ' if unsure else ''}{article or _article(found.label)} {found.label}{text}{far}"
+        )
+
+    def _by(self, found: Detection) -> str:
+        others = (item for item in self.known.objects if item.description != found.label)
+        by = (
+            nearest(found.x_m, found.y_m, others) if found.x_m is not None and found.y_m is not None else None
+        )
+        return f" by {with_article(by.description)}" if by is not None else ""
+
+
+def inspect(image: CameraImage, request: str, known: ObjectMap | None = None) -> InspectionReport:
+    """Say whether what is asked for is in a picture, or whether a place is free.
+
+    Args:
+        image: The picture.
+        request: What to look for or at.
+        known: The map, for telling what stands in which place.
 
     Raises:
         LanguageError: The robot has no detector, so nothing can be said about its pictures.
@@ -31,44 +95,117 @@ def inspect(image: CameraImage, request: str) -> InspectionReport:
         raise LanguageError(
             "this robot has no detector, and without a language model I cannot judge pictures"
         )
-    seen = [found for found in image.detections if found.pixels >= _LEAST_PIXELS]
-    shown = ", ".join(dict.fromkeys(found.label for found in seen)) or "nothing that I know"
-    words = request.lower().replace("'s ", " is ").replace("’s ", " is ").split()
-    wanted, there = _wanted(words[1:]) if words[:1] and words[0] in _ASKING else (words, True)
-    if wanted is None:
-        statement = request.partition(" ")[2] if words[:1] != ["what"] else ""
-        judge = f" Please look at the picture and judge whether {statement}." if statement else ""
-        return InspectionReport(f"I looked. I can see: {shown}.{judge}")
-    name = " ".join(word for word in wanted if word not in lexicon().classes["determiners"])
-    match = _match(wanted, seen)
-    if match is None:
+    seen = [found for found in image.detections if _is_trusted(found)]
+    wish, known = asked(request), known or ObjectMap()
+    scene = _Scene(seen, known, _place(wish.place, known))
+    bounded = isinstance(scene.place, MapObject) and _is_bounded(scene.place)  # of a room only a part is seen
+    if wish.kind == "room" and bounded and all(found.x_m is not None for found in seen):
+        return _room(scene, wish)
+    if wish.kind == "thing" and (wish.thing or wish.place):
+        return _thing(scene, wish)
+    starts = request.lower().startswith("what")
+    statement = "" if starts else request.partition(" ")[2]
+    judge = f" Please look at the picture and judge whether {statement}." if statement else ""
+    return InspectionReport(f"I looked.{scene.also}{judge}")
+
+
+def _is_trusted(found: Detection) -> bool:
+    sure = found.confidence is None or found.confidence >= _LEAST_CONFIDENCE
+    return sure and found.pixels >= _LEAST_PIXELS
+
+
+def _room(scene: _Scene, wish: Asked) -> InspectionReport:
+    """Whether a place is free of things."""
+    assert scene.place is not None
+    own = {_name(scene.place).lower()}
+    standing_there = [f for f in scene.seen if scene.of(f) in ("in", "edge") and f.label.lower() not in own]
+    name = with_article(_name(scene.place))
+    if not standing_there:
         return InspectionReport(
-            f"I looked, but I cannot see the {name}. I can see: {shown}.", not there, name
+            f"I see nothing standing{scene.there}, so far as I can see it from here.",
+            wish.holds, unwanted=not wish.holds,
+        )  # fmt: skip
+    what = " and ".join(scene.told(found) for found in standing_there)
+    return InspectionReport(
+        f"{name[:1].upper()}{name[1:]} is not clear: I see {what}.", not wish.holds, standing_there[0].label,
+        attention=True, things=tuple(standing_there),
+    )  # fmt: skip
+
+
+def _thing(scene: _Scene, wish: Asked) -> InspectionReport:
+    """Whether something is there."""
+    name = " ".join(wish.thing)
+    found = _called(scene, wish)
+    here = [one for one in found if scene.of(one) != "outside" or not _is_bounded(scene.place)]
+    if here and not (wish.unwanted or not wish.holds):
+        return InspectionReport(
+            f"I can see {scene.told(here[0], article='the')}.", True, here[0].label, things=(here[0],)
         )
-    far = "" if match.distance_m is None else f", about {match.distance_m:.1f} m away"
-    return InspectionReport(f"I can see the {match.label}{far}.", there, match.label)
+    if here:
+        text = f"I can see {' and '.join(scene.told(one) for one in here)}."
+        # That it is not there would be well, and is not so.
+        return InspectionReport(
+            text, wish.holds, here[0].label, attention=not wish.holds, unwanted=wish.unwanted,
+            things=tuple(here),
+        )  # fmt: skip
+    other = f", but {' and '.join(scene.told(one) for one in found)}" if found else ""
+    if wish.unwanted or not wish.holds:
+        text = f"I see no {name or 'such thing'}{scene.there}{other}."
+        more = "" if found else scene.also
+        unwanted = wish.unwanted
+        return InspectionReport(
+            text + more, (not wish.holds) or bool(found), name, attention=bool(found), unwanted=unwanted,
+            things=tuple(found),
+        )  # fmt: skip
+    more = f" I can see {' and '.join(scene.told(one) for one in found)}." if found else ""
+    return InspectionReport(
+        f"I looked, but I cannot see the {name}{scene.there}.{more or scene.also}",
+        False, name, things=tuple(found),
+    )  # fmt: skip
 
 
-def _wanted(words: Sequence[str]) -> tuple[Sequence[str] | None, bool]:
-    """What a statement says to be there, and whether it is to be; None if it says something else of it."""
-    small = lexicon().classes["prepositions"] - {"a", "the"}
-    at = next((n for n, word in enumerate(words) if word in ("is", "are")), None)
-    if at is None:
-        return None, True
-    part = words[:at]
-    if words[0] == "there":
-        end = next((n for n in range(at + 1, len(words)) if words[n] in small), len(words))
-        part = words[at + 1 : end]
-    elif words[at + 1 : at + 2] and words[at + 1] not in _THERE:
-        return None, True
-    return part or None, not {*part} & {"no", "nobody"}
+def _called(scene: _Scene, wish: Asked) -> list[Detection]:
+    """What is seen and called so: by all words of its label, or by a part of them.
 
-
-def _match(wanted: Sequence[str], seen: Sequence[Detection]) -> Detection | None:
-    """What is seen and called so: by all words of its label, or by a part of them."""
-    names = {stem(word) for word in wanted} - lexicon().classes["determiners"]
+    Of what should not be there the kind is enough: nobody knows which box it will be.
+    """
+    if {*wish.thing} & _ANYTHING:
+        known = (item for item in scene.known.objects if not item.found)
+        expected = {name.lower() for item in known for name in (item.description, item.id)}
+        return [one for one in scene.seen if one.label.lower() not in expected]
+    names = {stem(word) for word in wish.thing}
     if names & _SOMEBODY:
-        return next((found for found in seen if _PERSONS & {*found.label.lower().split()}), None)
-    labels = [(found, {stem(word) for word in found.label.lower().split()}) for found in seen]
-    whole = (found for found, label in labels if label <= names)
-    return next(whole, next((found for found, label in labels if names and names <= label), None))
+        return [one for one in scene.seen if _PERSONS & {*one.label.lower().split()}]
+    labels = [(one, {stem(word) for word in one.label.lower().split()}) for one in scene.seen]
+    if wish.unwanted:
+        kind = stem(wish.thing[-1])
+        return [one for one, label in labels if kind in label or label <= names]
+    whole = [one for one, label in labels if label <= names]
+    return whole or [one for one, label in labels if names and names <= label]
+
+
+def _place(words: Sequence[str], known: ObjectMap) -> Place | None:
+    """What of the map is meant by the words for a place."""
+    small = lexicon().classes["determiners"] | lexicon().classes["prepositions"]
+    bare = [word for at, word in enumerate(words) if word not in small or (at and at == len(words) - 1)]
+    if not bare:
+        return None
+    named = next((area for area in known.areas if area.name.lower() == " ".join(bare)), None)
+    found = link(bare, head_of(bare, lexicon()), known.objects, lexicon())
+    return found.things[0] if found.kind == "one" else named
+
+
+def _is_bounded(place: Place | None) -> bool:
+    """Whether a place is a part of the floor: what is looked for in it is nowhere else."""
+    if not isinstance(place, MapObject):
+        return place is not None
+    words = {*place.class_name.lower().split(), *place.description.lower().split()}
+    return place.width_m > 0 and any(is_word_for(word, "place") for word in words)
+
+
+def _name(place: Place | None) -> str:
+    return "" if place is None else place.description if isinstance(place, MapObject) else place.name
+
+
+def _article(label: str) -> str:
+    return "an" if label[:1].lower() in "aeiou" else "a"

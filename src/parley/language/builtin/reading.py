@@ -55,7 +55,8 @@ def read(parse: Parse, lexicon: Lexicon) -> Reading:
     spread = [part for wish in wanted for part in _spread(wish)]
     idle = _left_over(parse, lexicon)
     manner = tuple(word for word in idle if word.lower() in lexicon.classes["manner"])
-    left = tuple(word for word in idle if word not in manner)
+    looks = lexicon.classes["looking"] if any(wish.frame == "LOOK" for wish in spread) else frozenset()
+    left = tuple(word for word in idle if word not in manner and word.lower() not in looks)
     moves = frozenset(parse.moves) - {"none"}
     return Reading(frozenset(parse.acts), tuple(spread), rest, left, manner, _about(parse, lexicon), moves)
 

@@ -18,6 +18,7 @@ from parley.language.builtin.reply import to_chat
 from parley.language.builtin.saying import with_article
 from parley.language.builtin.things import head_of, link, noun_phrase
 from parley.language.builtin.tokens import tokenize
+from parley.language.control import control_of
 from parley.language.dialogue.answers import differences, listed
 from parley.language.dialogue.mentions import named
 from parley.language.dialogue.places import rooms
@@ -32,6 +33,7 @@ from parley.world.object_map import MapObject
 __all__ = ["Repairer"]
 
 _AGAIN, _WITHOUT, _STOP = "try again", "go on without it", "stop"
+_ON, _LOOK_AGAIN = "go on", "look again"
 _YES: Final = frozenset({"yes", "yeah", "ok", "okay", "sure", "yep", "please", "do", "it", "that"})
 _LONGEST: Final = 12
 """So many words an answer has at most that only names a thing."""
@@ -141,7 +143,7 @@ class Repairer:
         """What settles the failure; None if nothing of it does."""
         if reply.rstrip().endswith("?") and asks(reply, plain(tokenize(reply))) and not _is_wish(reply):
             return None
-        chose = self._chosen(situation, reply, names)
+        chose = self._chosen(situation, reply, names) or self._pursued(situation, reply)
         if chose is not None:
             return chose
         found = settled(reply, self._other_things(situation))
@@ -166,6 +168,29 @@ class Repairer:
             step = _with_words(situation.failed_action, choice)
             return _with_rest(_solved(situation, f"Thank you. I take the {choice}.", (step,)), ordered)
         return None
+
+    def _pursued(self, situation: ErrorSituation, reply: str) -> ChatAction | None:
+        """What is to be done about something that was found; then the plan goes on."""
+        if situation.code is not FailureCode.ATTENTION:
+            return None
+        told = settled(reply, ())
+        if control_of(reply) == "start" and (told is None or told.way != "again"):
+            return _solved(situation, "I go on.", ())
+        found = situation.details.get("found")
+        made = (
+            self.decide(replace(_as_message(situation, reply), failure=situation))
+            if isinstance(found, list)
+            else None
+        )
+        if not isinstance(made, Do) or not isinstance(found, list):
+            return None
+        given = [value for deed in made.deeds for value in deed.arguments.values()]
+        about = any(isinstance(value, str) and value in found for value in given)
+        return (
+            _solved(situation, f"I will {self._listed(made)}.", to_chat(made, self.lexicon).queue)
+            if about
+            else None
+        )
 
     def _settled(self, situation: ErrorSituation, found: Settled) -> ChatAction | None:
         behind = self._ordered(situation, found.rest) if found.rest else None
@@ -253,9 +278,11 @@ class Repairer:
         made = self.decide(_as_message(situation, words))
         if not isinstance(made, Do):
             return None
-        what = listed([words_for(deed, self.lexicon) for deed in made.deeds if not deed.hidden])
         chat = to_chat(made, self.lexicon)
-        return chat.model_copy(update={"message_response": f"I will {what}."})
+        return chat.model_copy(update={"message_response": f"I will {self._listed(made)}."})
+
+    def _listed(self, made: Do) -> str:
+        return listed([words_for(deed, self.lexicon) for deed in made.deeds if not deed.hidden])
 
     def _other_things(self, situation: ErrorSituation) -> set[str]:
         """The words for things and rooms that the failed step is not about."""
@@ -368,12 +395,18 @@ def _question(situation: ErrorSituation, names: Sequence[str]) -> tuple[str, tup
         shown = listed([f"the {name}" for name in names])
         return f"I know {len(names)} things that fit: {shown}. Which one do you mean?", tuple(names)
     text = situation.error_message.strip() or "A step did not work."
+    if situation.code is FailureCode.ATTENTION:
+        return f"{text} I have stopped here. What shall I do: {_ON}, {_LOOK_AGAIN}, or {_STOP}?", (
+            _ON,
+            _LOOK_AGAIN,
+            _STOP,
+        )
     return f"{text} Shall I {_AGAIN}, {_WITHOUT}, or {_STOP}?", (_AGAIN, _WITHOUT, _STOP)
 
 
 def _ask(situation: ErrorSituation, names: Sequence[str]) -> ChatAction:
     question, choices = _question(situation, names)
-    lead = "That did not help. " if situation.tried else ""
+    lead = "That did not help. " if situation.tried and situation.code is not FailureCode.ATTENTION else ""
     return ChatAction(success=False, message_response=f"{lead}{question}", choices=choices)
 
 

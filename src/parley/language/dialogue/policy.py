@@ -355,7 +355,7 @@ def spoken_of(
 ) -> tuple[MapObject | None, Place | None]:
     """What "it", "there" and "her" mean when a message begins: what was named last, who was told of last."""
     orders = {order.words: order for order in situation.dialogue.orders}
-    thing, person = None, None
+    thing, person = _found(situation), None
     for turn in reversed(situation.history[-_TURNS:]):
         if turn.role != "operator":
             continue
@@ -367,6 +367,14 @@ def spoken_of(
         if thing is None:
             thing = _thing_in([*reversed(texts), turn.content], low, situation, lexicon)
     return thing, person
+
+
+def _found(situation: Situation) -> MapObject | None:
+    """What the robot has just found and asks about."""
+    found = situation.failure.details.get("found") if situation.failure is not None else None
+    names = found if isinstance(found, list) else []
+    things = [item for item in situation.objects if item.description in names]
+    return things[0] if len(things) == 1 else None
 
 
 def _is_called(place: Place) -> bool:

@@ -23,6 +23,7 @@ _AGAIN: Final = re.compile(
     r"(?:an|one|a) ?(?:other|more|second|different) (?:try|go|attempt|shot|look|way|route|path|time)|"
     r"(?:go|drive|move|get|come|try) (?:it )?(?:round|around)|the other way)\b|^try$"
 )
+_LOOKING: Final = re.compile(r"(?:please )?(?:look|check|inspect)(?: (?:it|there))? again(?: please)?")
 _WITHOUT: Final = re.compile(
     r"\b(?:without|skip|leave (?:it|that|this|out)|never ?mind|ignore|next step|"
     r"(?:do|(?:go|carry) on with|continue with|on with) the rest|"
@@ -99,7 +100,11 @@ def _way(piece: str, things: Collection[str]) -> Way | None:
     short = len(words) <= _MOST_WORDS and not {stem(word) for word in words} & {*things}
     if command == "skip" or (short and _WITHOUT.search(bare)):
         return "without"
-    if short and _AGAIN.search(bare) and not _NOT & {*words}:
+    if (
+        short
+        and (_AGAIN.search(bare) or _LOOKING.fullmatch(piece.lower().strip(" .!")))
+        and not _NOT & {*words}
+    ):
         return "again"
     if is_done(bare):
         return "without" if _OWN & {*words} and not _CLEARING.search(bare) else "done"

@@ -181,6 +181,7 @@ class InspectAnswer(_Answer):
     wanted: str = Field(default="", max_length=200)
     unwanted: bool = False
     attention: bool = False
+    things: list[str] = Field(default_factory=list, max_length=50, description="As the detector calls them.")
     rules: list[str] = Field(default_factory=list, max_length=50, description="Labels of rules that apply.")
 
 

@@ -28,7 +28,7 @@ from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage
 from parley.sentences import sentence
 from parley.world.geometry import Pose2D
-from parley.world.object_map import MapObject
+from parley.world.object_map import MapObject, ObjectMap
 
 __all__ = ["AutoLanguage", "SaysWhenCertain"]
 
@@ -95,10 +95,12 @@ class AutoLanguage(Opened):
         """See `Language.ground`."""
         return named(description, objects) or await self._rest.ground(description, objects, pose)
 
-    async def inspect(self, image: CameraImage, request: str, rules: Sequence[str] = ()) -> InspectionReport:
+    async def inspect(
+        self, image: CameraImage, request: str, rules: Sequence[str] = (), known: ObjectMap | None = None
+    ) -> InspectionReport:
         """See `Language.inspect`."""
         eyes = self._rest if self._rest.sees_pictures else self._local
-        return await eyes.inspect(image, request, rules)
+        return await eyes.inspect(image, request, rules, known)
 
     async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:
         """See `Language.read_reply`; a choice that is given word for word needs no model."""

@@ -24,7 +24,7 @@ from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage
 from parley.sentences import sentence, together
 from parley.world.geometry import Pose2D
-from parley.world.object_map import MapObject
+from parley.world.object_map import MapObject, ObjectMap
 
 __all__ = ["BACK", "GONE", "ChainLanguage", "signed"]
 
@@ -113,9 +113,11 @@ class ChainLanguage(Opened):
         """See `Language.ground`."""
         return (await self._first(lambda engine: engine.ground(description, objects, pose)))[0]
 
-    async def inspect(self, image: CameraImage, request: str, rules: Sequence[str] = ()) -> InspectionReport:
+    async def inspect(
+        self, image: CameraImage, request: str, rules: Sequence[str] = (), known: ObjectMap | None = None
+    ) -> InspectionReport:
         """See `Language.inspect`."""
-        return (await self._first(lambda engine: engine.inspect(image, request, rules)))[0]
+        return (await self._first(lambda engine: engine.inspect(image, request, rules, known)))[0]
 
     async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:
         """See `Language.read_reply`."""

@@ -49,9 +49,10 @@ from parley.language.prompts import (
 )
 from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry
-from parley.robots.base import CameraImage
+from parley.robots.base import CameraImage, Detection
 from parley.world.geometry import Pose2D
-from parley.world.object_map import MapObject
+from parley.world.object_map import MapObject, ObjectMap
+from parley.world.whereabouts import Footprint, nearest, standing
 
 __all__ = ["LlmLanguage"]
 
@@ -194,13 +195,15 @@ class LlmLanguage(Opened):
         prompt = compose_ground(description, objects, pose)
         return await self._ask(prompt, known, lambda answer: reading.read_grounding(answer, objects))
 
-    async def inspect(self, image: CameraImage, request: str, rules: Sequence[str] = ()) -> InspectionReport:
+    async def inspect(
+        self, image: CameraImage, request: str, rules: Sequence[str] = (), known: ObjectMap | None = None
+    ) -> InspectionReport:
         """See `Language.inspect`."""
-        seen = None if image.detections is None else [found.label for found in image.detections]
+        seen = None if image.detections is None else [_seen(found, known) for found in image.detections]
         return await self._ask(
             compose_inspect(request, seen, rules),
             Known("inspect", rules=len(rules)),
-            lambda answer: reading.read_report(answer, rules),
+            lambda answer: reading.read_report(answer, rules, image.detections or ()),
             pictures=[_jpeg(image)],
         )
 
@@ -411,6 +414,19 @@ def _content(prompt: Prompt, pictures: Sequence[bytes], *, marks: bool) -> str |
     if marked:
         text = [prompt.content[: prompt.lasting], CachePoint(), prompt.content[prompt.lasting :]]
     return [*text, *(BinaryContent(each, media_type="image/jpeg") for each in pictures)]
+
+
+def _seen(found: Detection, known: ObjectMap | None) -> str:
+    """What a detector saw, and where it stands: in or at the edge of what, or by what."""
+    if found.x_m is None or found.y_m is None or known is None:
+        return found.label
+    others = [item for item in known.objects if item.description != found.label]
+    by = nearest(found.x_m, found.y_m, others)
+    if by is None:
+        return found.label
+    where = {"in": "in", "edge": "at the edge of", "outside": "near"}
+    place = Footprint(found.x_m, found.y_m, *found.span_m)
+    return f"{found.label} ({where[standing(place, by)]} {by.description})"
 
 
 def _jpeg(image: CameraImage) -> bytes:

@@ -114,6 +114,7 @@ def _report(known: Known) -> dict[str, Form]:
         "wanted": _TEXT,
         "unwanted": {"type": "boolean", "description": "It is looked for, and should not be there."},
         "attention": {"type": "boolean"},
+        "things": _list(_TEXT) | {"description": "What of it is there, as the detector calls it."},
     }
     rules = tuple(f"r{number}" for number in range(1, known.rules + 1))
     return fields | (

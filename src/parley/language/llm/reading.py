@@ -28,6 +28,7 @@ from parley.messages.chat import ActionCall, ChatAction, Flow, FlowIf, SystemCom
 from parley.messages.memory import MemoryEntry
 from parley.messages.pvf import Parameter, fits_type
 from parley.messages.status import ActionInfo
+from parley.robots.base import Detection
 from parley.world.object_map import MapObject
 
 __all__ = [
@@ -127,8 +128,11 @@ def read_selection(answer: SelectAnswer, index: Sequence[MemoryEntry]) -> list[s
     return [entry.name for entry in index if entry.name in chosen]
 
 
-def read_report(answer: InspectAnswer, rules: Sequence[str]) -> InspectionReport:
-    """What a picture shows; rules that were not given are dropped."""
+def read_report(
+    answer: InspectAnswer, rules: Sequence[str], seen: Sequence[Detection] = ()
+) -> InspectionReport:
+    """What a picture shows; rules that were not given and things that no detector saw are dropped."""
+    named = {name.casefold() for name in answer.things}
     applies = {f"r{number}": rule for number, rule in enumerate(rules, 1)}
     return InspectionReport(
         answer.text,
@@ -136,6 +140,7 @@ def read_report(answer: InspectAnswer, rules: Sequence[str]) -> InspectionReport
         answer.wanted,
         answer.attention,
         answer.unwanted,
+        tuple(found for found in seen if found.label.casefold() in named),
         tuple(applies[label] for label in dict.fromkeys(answer.rules) if label in applies),
     )
 

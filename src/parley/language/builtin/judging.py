@@ -1,0 +1,110 @@
+"""What a look is for: something needed, something that should not be there, or how a place is. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final, Literal
+
+from parley.language.builtin.lexicon import lexicon, stem
+
+__all__ = ["Asked", "asked"]
+
+_ASKING: Final = frozenset({"if", "whether", "that", "what", "how"})
+_THERE: Final = frozenset(
+    {"there", "here", "visible", "present", "still", "in", "on", "at", "near", "by", "under", "behind"}
+)
+_WITHIN: Final = frozenset({"in", "inside", "within", "on", "at"})
+_BE: Final = frozenset({"is", "are"})
+_SOMEBODY: Final = frozenset({"anybody", "anyone", "somebody", "someone", "nobody"})
+_CLEAR: Final = frozenset({"clear", "free", "empty", "unobstructed", "vacant"})
+_TAKEN: Final = frozenset({"blocked", "obstructed", "occupied", "cluttered", "full"})
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What is to be judged."""
+
+    kind: Literal["thing", "room", "state"]
+    """Whether something is there; whether a place is free; how something is, which nobody sees here."""
+    thing: tuple[str, ...] = ()
+    place: tuple[str, ...] = ()
+    """Where, if that is said."""
+    holds: bool = True
+    """Whether it is said to be there, or to be free."""
+    unwanted: bool = False
+    """Whether it is well if it is not there."""
+
+
+def asked(request: str) -> Asked:
+    """What a request asks for.
+
+    Examples:
+        >>> asked("Area 1 for any suspicious boxes")
+        Asked(kind='thing', thing=('suspicious', 'boxes'), place=('area', '1'), holds=True, unwanted=True)
+        >>> asked("the shelf for my key").unwanted
+        False
+        >>> asked("whether the yard is clear")
+        Asked(kind='room', thing=(), place=('the', 'yard'), holds=True, unwanted=False)
+    """
+    words = tuple(request.lower().replace("'s ", " is ").replace("’s ", " is ").rstrip(" .?!").split())
+    if words[:1] and words[0] in _ASKING:
+        return _stated(words[1:]) if words[0] != "what" else Asked("state")
+    if words[:1] == ("there",) and {*words[1:2]} & _BE:
+        return _stated(words)
+    at = next((n for n in range(len(words) - 1) if words[n] == "for"), None)
+    if at is not None:
+        thing, place = words[at + 1 :], words[:at]
+        return Asked("thing", _bare(thing), place, unwanted=_is_unwanted(thing, sought=True))
+    thing, place = _placed(words)
+    return Asked("thing", _bare(thing), place, unwanted=_is_unwanted(thing))
+
+
+def _stated(words: tuple[str, ...]) -> Asked:
+    """What a statement says to be there, or to be free."""
+    at = next((n for n, word in enumerate(words) if word in _BE), None)
+    if at is None:
+        return Asked("state")
+    if words[0] == "there":
+        thing, place = _placed(words[at + 1 :])
+        holds = not {*thing} & {"no", "nobody", "nothing"}
+        return Asked("thing", _bare(thing), place, holds, holds and _is_unwanted(thing))
+    state = [word for word in words[at + 1 :] if word not in ("completely", "still", "really", "all")]
+    if state[:1] and state[0] in _CLEAR | _TAKEN:
+        return Asked("room", (), words[:at], state[0] in _CLEAR)
+    if words[at + 1 : at + 2] and words[at + 1] not in _THERE:
+        return Asked("state")
+    thing = words[:at]
+    place = words[at + 2 :] if {*words[at + 1 : at + 2]} & _WITHIN else ()
+    return Asked("thing", _bare(thing), place, thing[:1] != ("nobody",), _is_unwanted(thing))
+
+
+def _placed(words: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """A thing and where it is said to be."""
+    small = lexicon().classes["prepositions"] - {"a", "the", "of"}
+    at = next((n for n in range(1, len(words)) if words[n] in small), len(words))
+    inside = words[at : at + 1] and words[at] in _WITHIN
+    return words[:at], words[at + 1 :] if inside else ()
+
+
+def _bare(words: Sequence[str]) -> tuple[str, ...]:
+    small = lexicon().classes["determiners"] | {"any", "no", "some"}
+    return tuple(word for word in words if word not in small)
+
+
+def _is_unwanted(words: Sequence[str], *, sought: bool = False) -> bool:
+    """Whether it is well if nothing of the kind is there.
+
+    "Any boxes", "suspicious boxes", "leaks" and, where a place is looked through for them, "boxes"; but "the
+    boxes", "my key" and "a chair" are needed.
+    """
+    classes = lexicon().classes
+    if not words or words[0] in _SOMEBODY:
+        return False
+    if words[0] in ("any", "anything"):
+        return True
+    if words[0] in classes["determiners"] - {"a", "an", "some"}:
+        return False
+    if {*words} & classes["amiss"] or stem(words[-1]) in classes["mishaps"]:
+        return True
+    return sought and stem(words[-1]) != words[-1]

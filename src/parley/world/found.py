@@ -1,0 +1,109 @@
+"""What robots found and no map knew, or knew to be elsewhere: kept beside the object map, over restarts."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+from typing import Final
+
+import structlog
+
+from parley.errors import FileFormatError
+from parley.world.object_map import MapObject, ObjectMap
+from parley.world.whereabouts import Footprint, nearest, standing
+
+__all__ = ["FoundThings"]
+
+log = structlog.get_logger(__name__)
+
+_MOVED_M: Final = 3.0
+"""Something of the same name that is seen no farther away was moved; else it is another one."""
+_SMALLEST_M: Final = 0.1
+
+
+class FoundThings:
+    """Things that were found, the newest place of each.
+
+    Args:
+        file: Where they are kept, in the form of an object map; None: nowhere.
+    """
+
+    def __init__(self, file: Path | None = None) -> None:
+        self._file = file
+        self._things: tuple[MapObject, ...] = ()
+        if file is not None and file.is_file():
+            try:
+                self._things = tuple(replace(item, found=True) for item in ObjectMap.load(file).objects)
+            except FileFormatError as error:  # what was found can be found again
+                log.warning("what was found before cannot be read", error=str(error))
+
+    def added_to(self, known: ObjectMap) -> ObjectMap:
+        """The map with what was found; what was moved stands where it was seen last."""
+        if not self._things:
+            return known
+        moved = {thing.id: thing for thing in self._things}
+        kept = tuple(moved.pop(item.id, item) for item in known.objects)
+        return replace(known, objects=(*kept, *moved.values()))
+
+    async def note(self, label: str, place: Footprint, known: ObjectMap) -> MapObject:
+        """Take over that something was seen; returns it as it stands on the map from now on.
+
+        Args:
+            label: What it is, in words.
+            place: What it covers.
+            known: The object map without what was found.
+        """
+        now = self.added_to(known)
+        alike = [item for item in now.objects if label.lower() in (item.description.lower(), *item.aliases)]
+        old = min(alike, key=lambda item: _apart_m(item, place), default=None)
+        if old is not None and standing(place, old) == "in":
+            return old
+        if old is not None and _apart_m(old, place) <= _MOVED_M:
+            found = _at(old, place)
+        else:
+            found = _at(_new(label, place, now), place)
+        self._things = (*(item for item in self._things if item.id != found.id), found)
+        if self._file is not None:
+            await asyncio.to_thread(_write, self._file, ObjectMap(self._things))
+        return found
+
+
+def _apart_m(item: MapObject, place: Footprint) -> float:
+    return float(((item.x_m - place.x_m) ** 2 + (item.y_m - place.y_m) ** 2) ** 0.5)
+
+
+def _at(item: MapObject, place: Footprint) -> MapObject:
+    """Where it was seen; its front is not known there."""
+    width, height = max(place.width_m, _SMALLEST_M), max(place.height_m, _SMALLEST_M)
+    return replace(
+        item, x_m=round(place.x_m, 3), y_m=round(place.y_m, 3), width_m=round(width, 3),
+        height_m=round(height, 3), front_rad=None,
+        found=True,
+    )  # fmt: skip
+
+
+def _new(label: str, place: Footprint, known: ObjectMap) -> MapObject:
+    """A thing with a name of its own: the label, or where that is taken, with where it stands."""
+    words = re.findall(r"\w+", label.lower()) or ["thing"]
+    stem, number = "_".join(words), 1
+    while known.get(f"{stem}_{number}") is not None:
+        number += 1
+    by = nearest(place.x_m, place.y_m, known.objects)
+    taken = {item.description.lower() for item in known.objects}
+    name = f"{label} by {by.description}" if label.lower() in taken and by is not None else label
+    if name.lower() in taken:
+        name = f"{label} {number}"
+    return MapObject(f"{stem}_{number}", name, place.x_m, place.y_m, class_name=words[-1])
+
+
+def _write(file: Path, things: ObjectMap) -> None:
+    """Keep them; where that fails they are known until the program ends."""
+    draft = file.with_suffix(".new")
+    try:
+        draft.write_text(json.dumps(things.to_json(), ensure_ascii=False) + "\n", encoding="utf-8")
+        draft.replace(file)
+    except OSError as error:
+        log.warning("what was found cannot be kept", error=str(error))

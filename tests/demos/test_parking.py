@@ -1,0 +1,93 @@
+"""The demonstration of thesis 5.3.2: three areas, a bag that somebody leaves, an alarm, and a closer look."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from parley.config import SystemConfig
+from parley.demos.catalogue import Demo, demo_folder, load_demo
+from parley.demos.runner import play
+from parley.demos.story import Variant
+from parley.sim.export import export_maps
+from parley.system import System
+from parley.world.object_map import MapObject
+
+Point = tuple[float, float]
+
+
+@pytest.fixture(scope="module")
+def demo() -> Demo:
+    return load_demo("parking")
+
+
+def with_bag_at(demo: Demo, x_m: float, y_m: float) -> Demo:
+    """The same, but the bag is left somewhere else."""
+    (event,) = demo.world.events
+    (bag,) = event.change.add
+    moved = event.change.model_copy(update={"add": (bag.model_copy(update={"pose": (x_m, y_m, 0.4)}),)})
+    events = (event.model_copy(update={"change": moved}),)
+    return replace(demo, world=demo.world.model_copy(update={"events": events}))
+
+
+async def played(
+    demo: Demo, folder: Path, variant: str = "", seed: int = 0
+) -> tuple[str, list[dict[str, Any]], System]:
+    """How it ended, what happened, and the system that it happened in."""
+    events: list[dict[str, Any]] = []
+    systems: list[System] = []
+    config = SystemConfig(speed=None, data_dir=folder, seed=seed)
+
+    def make(different: Variant) -> System:
+        systems.append(demo.system_for(demo.story, config, different))
+        return systems[-1]
+
+    result = await play(demo.story, make, variant=variant, emit=events.append)
+    return result.reason and f"{result.reason}: {result.text}", events, systems[-1]
+
+
+@pytest.mark.parametrize(
+    ("variant", "seed", "bag"),
+    [("", 0, (20.9, 2.0)), ("other_words", 5, (20.1, 2.6))],
+    ids=["told", "reworded"],
+)
+async def test_story_holds_and_the_bag_is_found_where_the_camera_saw_it(
+    demo: Demo, tmp_path: Path, variant: str, seed: int, bag: Point
+) -> None:
+    reason, events, system = await played(with_bag_at(demo, *bag), tmp_path, variant, seed)
+    assert reason == ""
+    assert [event["text"] for event in events if event["event"] == "world"] == [
+        "somebody leaves a bag in area C"
+    ]
+    (found,) = (item for item in system.known.objects if item.class_name == "bag")
+    assert math.dist((found.x_m, found.y_m), bag) < 0.3
+    assert [event["code"] for event in events if event["event"] == "failure"] == ["attention"]
+    looks = [event["node"] for event in events if event["event"] == "transition" and event.get("result")]
+    assert len([node for node in looks if node.startswith("Inspect")]) == 4
+    kept = {event["name"] for event in events if event["event"] == "memory"}
+    assert {"areas_of_interest", "black_bag_sighting", "picture of the black bag"} <= kept
+
+
+@pytest.mark.parametrize("variant", ["nobody_comes", "bag_in_a", "dead_camera"])
+async def test_story_breaks_where_the_world_makes_it_impossible(
+    demo: Demo, tmp_path: Path, variant: str
+) -> None:
+    reason, _, _ = await played(demo, tmp_path, variant)
+    assert reason.partition(":")[0] == demo.story.variant(variant).fails != ""
+
+
+async def test_every_variant_is_tested(demo: Demo) -> None:
+    marks = test_story_breaks_where_the_world_makes_it_impossible.pytestmark  # type: ignore[attr-defined]
+    assert {*demo.story.variants} == {*marks[0].args[1], "other_words"}
+
+
+def test_its_map_files_are_what_a_survey_of_the_world_gives(demo: Demo, tmp_path: Path) -> None:
+    """After a change to world.yaml: `parley world map`."""
+    export_maps(demo.world, tmp_path)
+    for name in ("map.yaml", "map.pgm", "object_map.json"):
+        assert (demo_folder("parking") / name).read_bytes() == (tmp_path / name).read_bytes()
+    assert all(isinstance(item, MapObject) and item.class_name != "bag" for item in demo.objects.objects)
