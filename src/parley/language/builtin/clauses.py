@@ -169,7 +169,8 @@ def _is_link(parse: Parse, low: Sequence[str], at: int, size: int, link: Link, l
         inside = any(span.role in "KX" and span.start <= at < span.end for span in parse.spans)
         return not asks and (apart or not inside)
     if low[at] in _SKIPPING:
-        return apart and at > 0 and before not in _ENDS and at + size < len(low)
+        ordered = any(verb.start < at and parse.acts[verb.start] == "order" for verb in parse.verbs)
+        return ordered and apart and before not in _ENDS and at + size < len(low)
     if any(verb.start <= at < verb.end or at in verb.particles for verb in parse.verbs) and link != "not":
         return False
     if low[at] == "else":

@@ -193,7 +193,7 @@ def _without_order(
         return answer(situation, reading, lexicon, reader, before)
     if "need" in reading.acts:
         return Ask("What can I do about it? Tell me what to bring, or where to go.")
-    if reading.acts <= {"social"}:
+    if reading.acts == {"social"}:
         return Answer("Hello. Tell me what I can do for you.")
     if "told" in reading.acts:
         return Ask("I did not understand that as a fact about where something is. What shall I do with it?")
