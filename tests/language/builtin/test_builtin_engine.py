@@ -16,6 +16,7 @@ from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.builtin.lexicon import lexicon
 from parley.language.builtin.tagger import shipped_tagger
 from parley.language.builtin.training.data import data_hash
+from parley.language.dialogue.state import Dialogue, Order
 from parley.messages.status import ActionInfo
 from parley.umrf.catalogue import info_of
 from parley.world.geometry import Pose2D
@@ -135,7 +136,11 @@ def test_turning_around_is_half_a_turn_and_back_is_nowhere_where_nothing_came_be
     assert calls(situation("turn around by 90 degrees", catalogue=catalogue)) == []
     here = Pose2D(1.0, 2.0, 0.0)
     assert calls(situation("come back", catalogue=catalogue, robot_pose=here)) == []
-    assert len(calls(situation("go to the office and come back", catalogue=catalogue, robot_pose=here))) == 3
+    for order in ("go to the office and come back", "go to the office and come back here"):
+        assert len(calls(situation(order, catalogue=catalogue, robot_pose=here))) == 3
+    sent = Dialogue(orders=(Order("go to the office", pose=Pose2D(8.5, 2.0, 0.0)),))
+    ((frame, given),) = calls(situation("come back", catalogue=catalogue, robot_pose=here, dialogue=sent))
+    assert frame == "GO" and "8.5" in given
 
 
 def test_how_far_a_move_goes_stays_open_only_on_the_way_to_something_that_the_action_can_do_without() -> None:

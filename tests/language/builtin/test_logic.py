@@ -60,6 +60,10 @@ PLANS = {
     "go to all the crates": rounds("red crate", "blue crate", "green crate"),
     "go to every crate except the blue one": rounds("red crate", "green crate"),
     "go to all gates apart from gate 2 and gate 3": rounds("gate 1", "gate 4"),
+    "go to every crate but skip the blue one": rounds("red crate", "green crate"),
+    "go to all gates, you can leave out gate 2 and gate 3 please": rounds("gate 1", "gate 4"),
+    "go to all gates but not to gate 2 and gate 3": rounds("gate 1", "gate 4"),
+    "go to all gates but not to gate 2 and go to the desk": rounds("gate 1", "gate 3", "gate 4", "desk"),
     "go to gates 1, 2 and 4": rounds("gate 1", "gate 2", "gate 4"),
     "look at each crate": [
         step for name in ("red", "blue", "green") for step in (f"go {name} crate", f"look {name} crate")

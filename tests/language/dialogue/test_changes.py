@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from parley.language.base import Situation
@@ -148,6 +150,17 @@ async def test_the_other_one_is_the_one_other_thing_of_that_kind(last: str, goes
     known = Dialogue(orders=(Order(f"go to the {last}", calls=calls),))
     situation = Situation("and now the other one", objects=THINGS, catalogue=(FIND, GO), dialogue=known)
     assert goals(await ENGINE.interpret(situation)) == goes
+
+
+async def test_after_the_last_one_which_of_several_is_asked_or_told_by_what_it_stands_next_to() -> None:
+    crates = tuple(MapObject(name, f"{name} crate", at, 4.0) for name, at in (("old", 1.0), ("new", 6.0)))
+    known = Dialogue(orders=(Order("go to the gate", calls=way("gate")),))
+    gate = MapObject("g", "gate", 1.0, 4.5)
+    after = Situation("then the crate", objects=(gate, *crates), catalogue=(FIND, GO), dialogue=known)
+    answer = await ENGINE.interpret(after)
+    assert (answer.queue, answer.choices) == ((), ("old crate", "new crate"))
+    beside = replace(after, message="and the crate next to it")
+    assert goals(await ENGINE.interpret(beside)) == ["old crate"]
 
 
 async def test_an_order_in_place_of_all_that_is_planned_says_so_and_leaves_nothing() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from parley.language.base import Turn
-from parley.language.builtin.decision import Ask, Do
+from parley.language.builtin.decision import Ask, Control, Do
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.dialogue.state import Asked, Dialogue
 from tests.language.builtin.worlds import situation
@@ -49,3 +49,9 @@ def test_a_real_one_is_told_and_the_order_beside_it_is_offered(told: str, order:
 def test_an_order_that_depends_on_something_is_not_taken_out_of_it() -> None:
     asked = ENGINE.decide(situation("if the pump is on, Kim fell, go to the desk"))
     assert isinstance(asked, Ask) and asked.alarms and "go to the desk" not in asked.choices
+
+
+def test_a_name_that_sounds_like_danger_calls_nobody() -> None:
+    for message in ("Spark, go to the desk", "Spark, stop!"):
+        made = ENGINE.decide(situation(message, robot="Spark", robots=("Spark",)))
+        assert isinstance(made, Do | Control), message

@@ -151,9 +151,21 @@ async def test_thanks_wishes_and_insults_are_no_facts(message: str) -> None:
     assert stored(await ENGINE.interpret(situation(message))) == []
 
 
-async def test_nothing_is_remembered_where_the_rest_is_asked_about() -> None:
-    answer = await ENGINE.interpret(situation("Kim is in the yard. Go to the moon."))
-    assert (stored(answer), answer.queue) == ([], ())
+@pytest.mark.parametrize(
+    ("message", "kept"),
+    [
+        ("Kim is in the yard. Go to the moon.", ["Kim is in the yard"]),
+        ("the red box is on the desk, can you zorb it?", ["the red box is on the desk"]),
+        ("if Kim is in the yard, go to the moon", []),
+        ("go to the moon, Kim said so", []),
+    ],
+)
+async def test_a_fact_beside_an_order_that_is_asked_about_is_kept_and_said(
+    message: str, kept: list[str]
+) -> None:
+    answer = await ENGINE.interpret(situation(message))
+    assert (stored(answer), answer.queue) == (kept, ())
+    assert all(f"remember that {fact}" in answer.message_response for fact in kept)
 
 
 async def test_a_stop_is_for_whom_it_calls() -> None:

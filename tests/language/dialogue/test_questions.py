@@ -32,6 +32,8 @@ LOOKED = deed(
     "Look: “crate”", effects=("looks",), told=("I can see the crate.",), seen=("crate", "rope", "gate")
 )
 RUNS = (PlanStep(action=ActionCall(name="drive_to"), label="Go to “gate”", state="running"),)
+HELD = (RUNS[0].model_copy(update={"state": "paused"}),)
+GIVEN_UP = deed("Go to “gate”", ending="stopped")
 
 
 async def said(message: str, dialogue: Dialogue, question: str = "") -> str:
@@ -85,6 +87,12 @@ def test_what_is_about_the_world_is_left_to_others(sentence: str) -> None:
         ("what is left to do?", Dialogue("running", RUNS), "go to the gate"),
         ("what is left to do?", Dialogue(), "Nothing"),
         ("what did you do?", Dialogue(deeds=(deed("Look: “whether it is shut”"),)), "look: whether it"),
+        ("what did you do?", Dialogue("running", RUNS, deeds=(deed("Go to “gate”", ending="running"),)),
+            "Nothing is done yet. I have begun to go to the gate"),
+        ("what were you doing before I stopped you?", Dialogue("paused", HELD, stopped=Stop("", "", 1)),
+            "I was to go to the gate, when I was told"),
+        ("where were you going when I stopped you?", Dialogue(deeds=(GIVEN_UP,)),
+            "I was to go to the gate"),
         ("how much battery is left?", Dialogue(battery=0.41), "41 %"),
         ("how much battery is left?", Dialogue(), "cannot tell"),
     ],

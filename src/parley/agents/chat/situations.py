@@ -15,6 +15,7 @@ from parley.agents.shown_pictures import remembered_pictures, sent_pictures
 from parley.clock import Clock
 from parley.language.base import Situation
 from parley.language.dialogue.log import Log
+from parley.language.dialogue.state import Order
 from parley.latest import Latest
 from parley.memory.client import recall, recall_newest
 from parley.memory.sayings import asks_for_all
@@ -93,7 +94,9 @@ class Situations:
         for target in order.targets if order.queue or plans else ():
             self._changes[target] = self.changes(target) + 1
         for target in order.targets if order.queue else ():
-            self.log(target).on_order(said.message, said.who.name, self._clock.unix_ms(), order.queue)
+            pose = _pose(self._presence.get(target))
+            asked = Order(said.message, said.who.name, self._clock.unix_ms(), tuple(order.queue), pose)
+            self.log(target).on_order(asked)
 
     def changes(self, target: str) -> int:
         """How often words have changed what a robot does."""
@@ -174,7 +177,6 @@ class Situations:
             self.plans.get(target),
             self.questions.newest(target),
         )
-        pose = status.pose if status is not None else None
         question = asked.message if asked is not None else self._asked.words(said.reply_to)
         return Situation(
             message=message,
@@ -185,7 +187,7 @@ class Situations:
             status=_STATUS.get(self.state(target), "idle"),
             objects=objects,
             rooms=self._rooms,
-            robot_pose=Pose2D(pose.x, pose.y, pose.yaw) if pose is not None else None,
+            robot_pose=_pose(status),
             robot=target,
             robots=self._presence.names(),
             speaker=speaker,
@@ -203,3 +205,9 @@ class Situations:
             return await recall_newest(self._transport, scope=target)
         query = memory_query(message, self.conversation(target).turns, speaker)
         return await recall(self._transport, query, scope=target)
+
+
+def _pose(status: ActorStatus | None) -> Pose2D | None:
+    """Where a robot is, if it tells."""
+    pose = status.pose if status is not None else None
+    return Pose2D(pose.x, pose.y, pose.yaw) if pose is not None else None

@@ -27,6 +27,7 @@ _ENDS = frozenset({".", ";", "!", "?"})
 _JOINS = frozenset({"and", "then", "but", "or"})
 _PREFIXES = frozenset({"else", "so", "first", "next"})
 """Links that stand before a clause of their own, and open no part of another."""
+_SKIPPING = frozenset({"skip", "skipping", "leave", "leaving", "ignore", "omit"})
 _LEADS_IN = frozenset(
     {"i", "you", "please", "just", "'d", "would", "could", "can", "should", "must", "like", "to"}
 )
@@ -167,6 +168,9 @@ def _is_link(parse: Parse, low: Sequence[str], at: int, size: int, link: Link, l
         asks = before in lexicon.classes["asking"] and not apart
         inside = any(span.role in "KX" and span.start <= at < span.end for span in parse.spans)
         return not asks and (apart or not inside)
+    if low[at] in _SKIPPING:
+        ordered = any(verb.start < at and parse.acts[verb.start] == "order" for verb in parse.verbs)
+        return ordered and apart and before not in _ENDS and at + size < len(low)
     if any(verb.start <= at < verb.end or at in verb.particles for verb in parse.verbs) and link != "not":
         return False
     if low[at] == "else":
@@ -192,7 +196,9 @@ def _end(
     if link == "except":
         return stop
     if link == "not":
-        return next((at for at in range(content + 1, stop) if low[at] in _JOINS), stop)
+        starts = {verb.start - ahead for verb in parse.verbs for ahead in (1, 2)}  # "not A and B" leaves both
+        ends = (at for at in range(content + 1, stop) if low[at] in _JOINS)
+        return next((at for at in ends if low[at] not in ("and", "or") or at in starts), stop)
     reach = max((s.end for s in parse.spans if s.role in "CUW" and s.start <= start + 1), default=0)
     if content < reach < stop and low[reach] in _JOINS:
         return reach

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -68,7 +69,23 @@ def decide(
         return promise
     made = policy.afterwards(made, situation, whole, tokens, lexicon)
     amiss = isinstance(made, Ask) and not made.offer and not situation.queue and is_report(situation.message)
-    return _seen_to(made, situation, tokens, skills, lexicon) if amiss else made
+    made = _seen_to(made, situation, tokens, skills, lexicon) if amiss else made
+    if isinstance(made, Ask) and "told" in whole.acts and not made.alarms:
+        return replace(made, told=policy.no_facts(_beside(situation.message, again), situation, beside=True))
+    return made
+
+
+_SENTENCE = re.compile(r"\w[^.,;:!?]*")
+_BINDING = re.compile(r"\b(?:if|unless|until|when|while|or|because|but|not)\b", re.IGNORECASE)
+
+
+def _beside(message: str, again: policy.Again) -> tuple[Told, ...]:
+    """The facts of a message that is asked about: whole sentences on which nothing in it depends."""
+    pieces = [found[0].strip() for found in _SENTENCE.finditer(message)]
+    if len(pieces) == 1 or _BINDING.search(message):
+        return ()
+    made = [again(piece) for piece in pieces]
+    return tuple(fact for one in made if isinstance(one, Remember) for fact in one.told if not fact.is_rule)
 
 
 def _seen_to(
@@ -180,7 +197,7 @@ def _without_order(
         return answer(situation, reading, lexicon, reader, before)
     if "need" in reading.acts:
         return Ask("What can I do about it? Tell me what to bring, or where to go.")
-    if reading.acts <= {"social"}:
+    if reading.acts == {"social"}:
         return Answer("Hello. Tell me what I can do for you.")
     if "told" in reading.acts:
         return Ask("I did not understand that as a fact about where something is. What shall I do with it?")

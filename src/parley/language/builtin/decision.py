@@ -83,6 +83,8 @@ class Ask:
     """Whether the robot stands still until it is answered."""
     alarms: bool = False
     """Whether everybody is told of it: somebody is in danger."""
+    told: tuple[Told, ...] = ()
+    """What was told clearly beside it."""
 
 
 @dataclass(frozen=True, slots=True)

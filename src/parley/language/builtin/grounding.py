@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
@@ -15,7 +14,7 @@ from parley.language.builtin.listings import told_set
 from parley.language.builtin.saying import as_said, with_article
 from parley.language.builtin.sets import Group, group
 from parley.language.builtin.skills import Skills
-from parley.language.builtin.spatial import picked
+from parley.language.builtin.spatial import beside, picked
 from parley.language.builtin.things import Mention, link, noun_phrase
 from parley.language.builtin.tokens import Token, point_of
 from parley.language.builtin.wishes import Filler, Wish
@@ -205,13 +204,7 @@ class Grounder:
         it = self.before
         if it is None or it in things or not {*filler.words} & self.lexicon.classes["pronouns"]:
             return None
-        main = {stem(word) for word in it.description.split()[:2]} - self.lexicon.classes["prepositions"]
-        told = [one for one in things if main & {stem(word) for word in one.description.split()}]
-        if len(told) == 1:
-            return told[0]
-        far_m = sorted((math.hypot(one.x_m - it.x_m, one.y_m - it.y_m), n) for n, one in enumerate(things))
-        alone = len(far_m) > 1 and far_m[0][0] < _BESIDE_M and far_m[0][0] < far_m[1][0] / 2
-        return things[far_m[0][1]] if alone else None
+        return beside(it, things)
 
     def _room(self, frame: str, filler: Filler) -> Value | None:
         """A room of the map as a goal, by its whole name; a thing that is called so goes before."""
@@ -409,7 +402,6 @@ def _at_point(filler: Filler) -> Value | None:
 
 
 _BESIDE = frozenset({"next", "near", "beside", "by", "behind", "opposite", "close"})
-_BESIDE_M = 2.0
 _SHOWN = 3
 """So many things are named to whoever asked for one that nobody knows."""
 _BACK_TO = frozenset({"there", "it", "them", "these", "those", "they", "over"})

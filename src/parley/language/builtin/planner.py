@@ -252,7 +252,7 @@ class Planner:
                         return waited
                     before.append(waited)
                 case "except":
-                    self.builder.left_out = words
+                    self.builder.left_out = tuple(word for word in words if word not in ("please", "out"))
                 case "not":
                     if not self._excluded(limit, wishes):
                         return Ask(

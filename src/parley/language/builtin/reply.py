@@ -43,12 +43,12 @@ def to_chat(decision: Decision, lexicon: Lexicon) -> ChatAction:
                 targets=robots,
                 sources=tuple(note.source for note in notes if note.source),
             )
-        case Ask(question, choices):
+        case Ask(question, choices, told=told):
             stop = (SystemCommand(command="stop"),) if decision.stops else ()
             return ChatAction(
-                message_response=question,
+                message_response=" ".join([*map(_remembered, told), question]),
                 choices=choices,
-                system_cmd=stop,
+                system_cmd=(*stop, *_memories(told)),
                 alarm=decision.alarms,
                 offer=_calls(decision.offer, lexicon),
                 needs_yes=decision.unclear,

@@ -12,6 +12,7 @@ __all__ = ["BACKING", "retyped"]
 
 BACKING = frozenset({"back", "backup", "reverse", "backing", "reversing", "retreat"})
 """Verbs that say the direction themselves."""
+_HITHER = frozenset({"back", "here", "to", "over"})
 _AT = frozenset(
     {"on", "in", "at", "near", "by", "under", "beside", "next", "behind", "inside", "from", "off"}
 )
@@ -45,7 +46,8 @@ def _gone(wish: Wish) -> Wish:
     """Going with somebody is following, by an angle turning, without a goal moving."""
     amount = next((amount_of(filler.words) for filler in wish.all("N")), None)
     verb = wish.verb.split()
-    if {*verb} & {"come", "return"} and [filler.words for filler in wish.fillers] == [("back",)]:
+    told = {word for filler in wish.fillers for word in filler.words}
+    if {*verb} & {"come", "return"} and told <= _HITHER and {*verb, *told} & {"back", "return"}:
         return replace(wish, verb="come back", fillers=())
     company = [filler for filler in wish.all("G") if filler.words[0] == "with"]
     if company:

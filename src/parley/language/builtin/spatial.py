@@ -12,7 +12,7 @@ from parley.language.builtin.things import link
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["Picked", "picked"]
+__all__ = ["Picked", "beside", "picked"]
 
 _NEAR = (
     "next to", "near to", "nearest to", "closest to", "nearer to", "closer to", "close to", "nearest",
@@ -34,6 +34,8 @@ _AXES = {"east": (1.0, 0.0), "west": (-1.0, 0.0), "north": (0.0, 1.0), "south": 
 _FILLING = frozenset(
     {"that", "is", "'s", "which", "are", "the", "stands", "standing", "a", "one", "there", "lying"}
 )
+_LEADING = frozenset({"by", "near", "next", "of", "in", "at", "on", "beside", "under", "behind"})
+_BESIDE_M = 2.0
 _MARGIN = 1.15
 """So many times farther the next one must be."""
 
@@ -64,6 +66,17 @@ def picked(
             if found is not None:
                 return found
     return None
+
+
+def beside(it: MapObject, things: Sequence[MapObject]) -> MapObject | None:
+    """Of several things the one that is called after another, or stands alone beside it."""
+    main = {stem(word) for word in it.description.split()[:2]} - _LEADING
+    told = [one for one in things if main & {stem(word) for word in one.description.split()}]
+    if len(told) == 1:
+        return told[0]
+    far_m = sorted((math.hypot(one.x_m - it.x_m, one.y_m - it.y_m), n) for n, one in enumerate(things))
+    alone = len(far_m) > 1 and far_m[0][0] < _BESIDE_M and far_m[0][0] < far_m[1][0] / 2
+    return things[far_m[0][1]] if alone else None
 
 
 def _begins_relation(words: Sequence[str], end: int) -> bool:

@@ -64,12 +64,15 @@ class Ways(Grounder):
         ]
 
     def way_back(self) -> list[Deed] | Ask:
-        """The way to where the robot is now."""
-        skill, pose = self.skills.get("GO"), self.situation.robot_pose
-        if skill is None or pose is None or not skill.takes_pose or not self.at:
+        """The way to where the robot is now; where nothing comes before that, to where it was sent from."""
+        skill, pose, said = self.skills.get("GO"), self.situation.robot_pose, "where I am now"
+        if not self.at:
+            orders = self.situation.dialogue.orders if self.last_check is None else ()
+            pose, said = orders[-1].pose if orders else None, "where you sent me from"
+        if skill is None or pose is None or not skill.takes_pose:
             return Ask("Where shall I go back to?")
         self.at = ""
-        return [self._driven(skill, pose.x_m, pose.y_m, pose.yaw_rad, "where I am now")]
+        return [self._driven(skill, pose.x_m, pose.y_m, pose.yaw_rad, said)]
 
     @staticmethod
     def _driven(skill: Skill, x_m: float, y_m: float, yaw_rad: float, said: str) -> Deed:

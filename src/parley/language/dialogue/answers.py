@@ -131,14 +131,24 @@ def _left(situation: Situation, about: str) -> str:
 
 
 def _did(situation: Situation, about: str) -> str:
-    done = _visible(situation.dialogue.deeds)
-    if not done:
+    begun = _visible(situation.dialogue.deeds)
+    if not begun:
         return "I have not done anything yet since I was started."
-    parts = [
-        deed_words(deed) if deed.ending != "running" else f"now: {step_words(deed.label)}" for deed in done
-    ]
+    parts = [deed_words(deed) for deed in begun if deed.ending != "running"]
     more = f"{counted(len(parts) - _MOST, 'other thing')} before that; " if len(parts) > _MOST else ""
-    return f"I did this: {more}{'; '.join(parts[-_MOST:])}."
+    done = f"I did this: {more}{'; '.join(parts[-_MOST:])}." if parts else "Nothing is done yet."
+    now = [step_words(deed.label) for deed in begun if deed.ending == "running"]
+    return f"{done} I have begun to {listed(now)}." if now else done
+
+
+def _before_stop(situation: Situation, about: str) -> str:
+    """What was under way when somebody told it to stand still."""
+    left = [step for step in _steps_left(situation) if step.state != "queued"]
+    words = [step_words(step.label) for step in left]
+    words += [step_words(deed.label) for deed in situation.dialogue.deeds if deed.ending == "stopped"][-1:]
+    stopped = situation.dialogue.stopped
+    when = f", when I was told to stop {_at(stopped.unix_ms)}" if stopped is not None else ""
+    return f"I was to {words[0]}{when}." if words else _did(situation, about)
 
 
 def _there_yet(situation: Situation, about: str) -> str:
@@ -420,6 +430,7 @@ _TOPICS: Final[dict[str, Callable[[Situation, str], str]]] = {
     "where_are_you": _where, "been": _been, "there_yet": _there_yet, "going_before": _going_before,
     "where_going": _where_going, "why_stopped": _why_stopped, "waiting_for": _waiting, "why_not": _why_not,
     "why_not_go": _why_not_go, "why": _why, "what_doing": _doing, "what_left": _left, "what_did": _did,
+    "before_stop": _before_stop,
     "what_seen": _seen, "what_else_seen": _else, "seen_thing": _seen_thing, "how_long": _how_long,
     "battery": _battery, "able": _able, "name": _name, "time": _time, "told_about": _told_about,
     "told_all": _told_all, "difference": _difference,

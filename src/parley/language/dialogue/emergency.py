@@ -62,9 +62,11 @@ def emergency(
     text = situation.message
     acts = reader(text).acts
     pieces = [match.span() for match in _PIECE.finditer(text)] if len(tokens) <= _LONGEST else []
+    names = " ".join([*situation.robots, *(item.description for item in situation.objects)]).lower().split()
     ends = [text[slice(*pieces[at])] for at in (0, -1)] if len(pieces) > 1 else []
     if len(ends) > 1 and _danger(text[: pieces[-1][0]], lexicon):
         del ends[1]  # "look for smoke, gas" is a list
+    ends = [one for one in ends if {*_danger(one, lexicon)}.isdisjoint(names)]  # a "fire door" is none
     if "question" in acts or not ("alarm" in acts or any(_calls(one, lexicon, reader) for one in ends)):
         return None
     order, told = _beside(text, pieces, lexicon, reader, again)

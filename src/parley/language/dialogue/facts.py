@@ -87,11 +87,17 @@ def is_report(text: str) -> bool:
     return not _KEEP.search(low) and "should" not in low and _HAPPENED.search(low) is not None
 
 
-def worth_keeping(situation: Situation, bare: str) -> bool:
-    """Whether a message can be a fact at all: no stop, no question, no answer to one, no order to go on."""
+def worth_keeping(situation: Situation, bare: str, *, beside: bool = False) -> bool:
+    """Whether a message can be a fact at all: no stop, no question, no answer to one, no order to go on.
+
+    Args:
+        situation: With the message.
+        bare: The message without what opens and closes it.
+        beside: Whether only a sentence of its own in it is looked at; another one may ask.
+    """
     message = situation.message
     return not (
-        asks(message, bare)
+        (asks(message, bare) and not beside)
         or calls_to_stop(message)
         or has_stop_word(" ".join(message.split()[:2]))
         or control_of(message, situation.robots) is not None

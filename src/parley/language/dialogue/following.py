@@ -8,10 +8,11 @@ from typing import Final
 
 from parley.language.base import Situation
 from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.spatial import beside
 from parley.language.builtin.tokens import Token
 from parley.language.dialogue.answers import listed
 from parley.language.dialogue.changes import Change, Visit, moved, visits_of
-from parley.language.dialogue.mentions import named, same_kind
+from parley.language.dialogue.mentions import Named, named, same_kind
 from parley.language.dialogue.state import Order
 from parley.messages.status import PlanStep
 from parley.world.object_map import MapObject
@@ -24,7 +25,7 @@ _SMALL: Final = frozenset(
         "likewise", "ditto", "how", "about", "in", "at", "to", "do", "it", "that", "thing", "again", "once",
         "more", "but", "no", "not", "i", "mean", "meant", "sorry", "oh", "just", "instead", "actually",
         "rather", "wait", "this", "time", "after", "afterwards", "finally", "one", "other", "okay", "ok", "a",
-        "try", "of",
+        "try", "of", "near", "beside", "by", "close",
     }
 )  # fmt: skip
 _LINKING: Final = re.compile(
@@ -55,10 +56,16 @@ def followed(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, la
     done = _last_visits(last, situation)
     if not done or not {*rest} - _which(rest) <= _SMALL | _GOING or _LINKING.search(said) is None:
         return None
-    if any(len(name.things) > 1 for name in names):
-        return None
     before = done[0].things[0]
-    things = [name.things[0] for name in names] or _other(before, words, situation.objects)
+    chosen = [_near(before, name, {*rest}, lexicon) for name in names]
+    which = next((things for things in chosen if len(things) > 1), ())
+    if which and not _GOING & {*words}:
+        fitting = tuple(thing.description for thing in which)
+        return Change(
+            question=f"Which one do you mean: {listed([f'the {one}' for one in fitting], 'or')}?",
+            choices=fitting,
+        )
+    things = [things[0] for things in chosen] or _other(before, words, situation.objects)
     if _GOING & {*words} and (names or _looks(done, situation)):
         return None  # an order of its own
     if len(things) > 1 and not names:
@@ -68,9 +75,18 @@ def followed(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, la
     if not things or before in things:
         return None
     calls = tuple(call for thing in things for visit in done for call in moved(visit, thing) or visit.calls)
-    reasons = dict.fromkeys(call.reason for call in calls if call.reason)
+    finding = {info.name for info in situation.catalogue if info.only_finds}
+    reasons = dict.fromkeys(call.reason for call in calls if call.reason and call.name not in finding)
     what = " and then ".join(reasons) or f"do the same with the {things[0].description}"
     return Change(add=calls, said=f"I will {what}.")
+
+
+def _near(before: MapObject, name: Named, rest: set[str], lexicon: Lexicon) -> tuple[MapObject, ...]:
+    """What is named, or of several the one beside what came before: "the chair next to it"."""
+    near = (
+        beside(before, name.things) if rest & lexicon.classes["pronouns"] and len(name.things) > 1 else None
+    )
+    return (near,) if near is not None else name.things
 
 
 def _last_visits(last: Order, situation: Situation) -> list[Visit]:

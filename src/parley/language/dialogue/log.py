@@ -8,7 +8,6 @@ from dataclasses import dataclass, field, replace
 from typing import Final, TypeVar
 
 from parley.language.dialogue.state import Asked, Deed, Dialogue, Ending, Order, Stop
-from parley.messages.chat import ActionCall
 from parley.messages.status import ActionInfo, ActorStatus, GraphEvent, PlanProposal, PlanStep, PlanUpdate
 
 __all__ = ["Log"]
@@ -53,9 +52,9 @@ class Log:
     _facts: OrderedDict[_Key, _Facts] = field(default_factory=OrderedDict)
     """What the engine tells of each node; the last is the newest that began."""
 
-    def on_order(self, words: str, by: str, unix_ms: int, calls: Sequence[ActionCall]) -> None:
+    def on_order(self, order: Order) -> None:
         """Somebody's words became steps."""
-        self._orders.append(Order(words, by, unix_ms, tuple(calls)))
+        self._orders.append(order)
         del self._orders[:-_KEPT_ORDERS]
         self._refused, self._asked = "", None
 

@@ -328,12 +328,12 @@ def _handless(situation: Situation, reading: Reading) -> str:
     return f"I have no hands, so I cannot {needed[0].verb} anything by myself; a person has to help."
 
 
-def no_facts(told: tuple[Told, ...], situation: Situation) -> tuple[Told, ...]:
+def no_facts(told: tuple[Told, ...], situation: Situation, *, beside: bool = False) -> tuple[Told, ...]:
     """The facts of a message, unless it is a stop, an order to go on, a question or an answer."""
     bare = plain(tokenize(situation.message), (situation.robot,))
     kept = tuple(fact for fact in told if fact.is_rule or not is_wish(fact.text))
     kept = () if is_report(situation.message) else kept
-    return kept if kept and worth_keeping(situation, bare) else ()
+    return kept if kept and worth_keeping(situation, bare, beside=beside) else ()
 
 
 def _edit(change: Change, situation: Situation, do: Do | None = None) -> Decision:

@@ -7,6 +7,7 @@ from typing import Literal
 
 from parley.messages.chat import ActionCall
 from parley.messages.status import PlanProposal, PlanStep
+from parley.world.geometry import Pose2D
 
 __all__ = ["Asked", "Deed", "Dialogue", "Order", "Stop"]
 
@@ -23,6 +24,8 @@ class Order:
     """Their name, if it is known."""
     unix_ms: int = 0
     calls: tuple[ActionCall, ...] = ()
+    pose: Pose2D | None = None
+    """Where the robot was then."""
 
 
 @dataclass(frozen=True, slots=True)
