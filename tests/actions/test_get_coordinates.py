@@ -30,7 +30,7 @@ async def test_spot_is_free_near_the_thing_and_faces_it() -> None:
 async def test_a_room_leads_into_it() -> None:
     hall = MapArea("packing hall", ((4.0, 1.0), (6.0, 1.0), (6.0, 3.0), (4.0, 3.0)))
     async with room(language=BuiltinLanguage()) as here:
-        here.view = replace(here.view, objects=replace(here.view.objects, areas=(hall,)))
+        here.view = replace(here.view, base=replace(here.view.base, areas=(hall,)))
         spot = (await get_coordinates(here.context, "packing hall")).pose.planar()
         assert hall.holds(spot.x_m, spot.y_m) and here.view.occupancy.is_free(spot.x_m, spot.y_m)
 
