@@ -1,8 +1,8 @@
 /**
  * Stopping: pressed here, sent on the line and as a request at once, confirmed by the robots.
  *
- * A stop that does not get through is tried again for a few seconds, and said so. After that it is not sent any more:
- * nobody expects robots to stop for what was pressed a while ago.
+ * A stop that does not get through is sent until it does, and said so, unless a person calls it off: whatever killed
+ * the server, who pressed finds the robots stopped when it is back.
  */
 import { create } from 'zustand';
 
@@ -18,8 +18,8 @@ interface Press {
   id: string;
   targets: readonly string[];
   sinceMs: number;
-  /** `late`: not taken yet; `dropped`: it never was, and is not sent any more. */
-  state: 'sending' | 'late' | 'dropped';
+  /** `late`: not taken yet, though it should be. */
+  state: 'sending' | 'late';
 }
 
 interface Stopping {
@@ -31,15 +31,13 @@ interface Stopping {
   stop: (targets: readonly string[]) => Promise<void>;
   /** @throws ApiError The server refused, or was not reached. */
   reset: (targets: readonly string[]) => Promise<void>;
-  /** Take note of a stop that was not sent. */
-  dismiss: () => void;
+  /** Send a stop that was not taken no longer. */
+  callOff: () => void;
 }
 
 const RETRY_MS = 500;
 /** A stop that the server did not take for so long is said to be late. */
 const LATE_MS = 700;
-/** One that was pressed longer ago is not sent any more. */
-export const FRESH_MS = 5000;
 /** Pressed again within this time, it is the same stop. */
 const DOUBLE_MS = 1000;
 /** After this time the live stream alone says how the robots fare. */
@@ -48,11 +46,11 @@ const TOLD_MS = 12_000;
 const pause = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
 
 export const useStopping = create<Stopping>()((set, get) => {
-  const waits = (id: string) => get().pending?.id === id && get().pending?.state !== 'dropped';
+  const waits = (id: string) => get().pending?.id === id;
   /** Does nothing for one that was taken meanwhile. */
-  const mark = (id: string, state: Press['state']) => {
+  const late = (id: string) => {
     const { pending } = get();
-    if (pending?.id === id) set({ pending: { ...pending, state } });
+    if (pending?.id === id) set({ pending: { ...pending, state: 'late' } });
   };
   let forget: ReturnType<typeof setTimeout> | undefined;
   const take = (answer: StopAnswer) => {
@@ -74,29 +72,27 @@ export const useStopping = create<Stopping>()((set, get) => {
       const id = crypto.randomUUID();
       const mayReach = stopOnLine(targets, id) || useLive.getState().connection === 'connected';
       set({ pending: { id, targets, sinceMs: now, state: mayReach ? 'sending' : 'late' } });
-      setTimeout(() => waits(id) && mark(id, 'late'), LATE_MS);
-      while (waits(id) && Date.now() - now < FRESH_MS) {
+      setTimeout(() => late(id), LATE_MS);
+      while (waits(id)) {
         try {
           take(await sendStop(targets, id));
         } catch (error) {
           if (!(error instanceof ApiError)) throw error;
-          mark(id, 'late');
+          late(id);
           await pause(RETRY_MS);
         }
       }
-      mark(id, 'dropped');
     },
     reset: async (targets) => {
       await sendReset(targets, crypto.randomUUID());
       set({ pending: null, answer: null });
     },
-    dismiss: () => set({ pending: null }),
+    callOff: () => set({ pending: null }),
   };
 });
 
 const isAgain = (before: Press | null, targets: readonly string[], now: number) =>
   before !== null &&
-  before.state !== 'dropped' &&
   now - before.sinceMs < DOUBLE_MS &&
   before.targets.join('\n') === targets.join('\n');
 

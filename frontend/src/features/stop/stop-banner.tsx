@@ -33,14 +33,14 @@ export function StopBanner() {
 
 /** A stop of this page that the server has not taken. */
 function Pending() {
-  const { t } = useTranslation(['stop', 'common']);
+  const { t } = useTranslation('stop');
   const pending = useStopping((state) => state.pending);
-  const dismiss = useStopping((state) => state.dismiss);
+  const callOff = useStopping((state) => state.callOff);
   if (!pending) return null;
   return (
     <p className={css.pending} data-failed={pending.state !== 'sending'}>
       <span>{t(pending.state)}</span>
-      {pending.state === 'dropped' && <Button onPress={dismiss}>{t('common:close')}</Button>}
+      {pending.state === 'late' && <Button onPress={callOff}>{t('callOff')}</Button>}
     </p>
   );
 }
