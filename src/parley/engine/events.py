@@ -19,6 +19,6 @@ def event_fields(actor: str, graph_name: str, transition: Transition) -> dict[st
         "actor": actor,
         "graph_name": graph_name,
         **transition._asdict(),
-        "result": transition.result or "",
+        "result": transition.result.value if transition.result is not None else "",
         "outputs": write_parameters(transition.outputs) if transition.outputs else {},
     }

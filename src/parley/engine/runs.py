@@ -22,7 +22,7 @@ from parley.umrf.remote import Peers
 from parley.umrf.saved import SavedRun
 from parley.umrf.transition import Transition
 
-__all__ = ["GraphRuns", "RunObserver"]
+__all__ = ["GraphRuns", "RunObserver", "stop_latched"]
 
 KEPT_ENDED: Final = 20
 """How many graphs that have ended are kept for queries."""
@@ -38,15 +38,15 @@ RunObserver = Callable[[GraphRun, Transition], None]
 
 
 class GraphRuns:
-    """All runs of one actor, by graph name.
+    """All runs of one actor, by graph name; commands for others raise `GraphRefusedError`.
 
     Args:
         actor: Its name.
         catalogue: What it can do.
-        clock: See `GraphRun`.
-        make_context: See `GraphRun`.
+        clock: See `GraphRun`, for the next one and `stop_timeout_s` too.
+        make_context: Builds what an action gets as its first argument.
         observer: Told every transition of the newest run of each name.
-        stop_timeout_s: See `GraphRun`.
+        stop_timeout_s: Wall time a node may take to stop.
         latched: Whether an emergency stop forbids everything that would run an action.
     """
 
@@ -188,60 +188,35 @@ class GraphRuns:
             del self._runs[run.name]
 
     def modify(self, graph: Graph, continue_from: str = "") -> None:
-        """See `GraphRun.modify`.
-
-        Raises:
-            GraphRefusedError: Also when the graph is unknown, or when an emergency stop is in force and the
-                change would run something.
-        """
-        run = self._get(graph.name)
-        if continue_from:
-            self._refuse_if_latched(graph.name)
-        run.modify(graph, continue_from)
+        """See `GraphRun.modify`; also refused if an emergency stop is in force and it would run something."""
+        self._to_change(graph, continue_from).modify(graph, continue_from)
 
     def check_modify(self, graph: Graph, continue_from: str = "") -> None:
-        """Whether `modify` could be done now, without doing it.
+        """Refuse what `modify` would refuse now, without doing it."""
+        self._to_change(graph, continue_from).modified(graph, continue_from)
 
-        Raises:
-            GraphRefusedError: As that does.
-        """
+    def _to_change(self, graph: Graph, continue_from: str) -> GraphRun:
         run = self._get(graph.name)
         if continue_from:
             self._refuse_if_latched(graph.name)
-        run.modified(graph, continue_from)
+        return run
 
     def end_node(self, name: str, node: str) -> None:
-        """See `GraphRun.end_node`.
-
-        Raises:
-            GraphRefusedError: The graph or the node is unknown.
-        """
+        """See `GraphRun.end_node`."""
         self._get(name).end_node(node)
 
     def pause(self, name: str) -> None:
-        """See `GraphRun.pause`.
-
-        Raises:
-            GraphRefusedError: The graph is unknown.
-        """
+        """See `GraphRun.pause`."""
         self._get(name).pause()
 
     def resume(self, name: str) -> None:
-        """See `GraphRun.resume`.
-
-        Raises:
-            GraphRefusedError: The graph is unknown or has ended, or an emergency stop is in force.
-        """
+        """See `GraphRun.resume`; also refused if an emergency stop is in force."""
         run = self._get(name)
         self._refuse_if_latched(name)
         run.resume()
 
     def stop(self, name: str) -> None:
-        """See `GraphRun.stop`.
-
-        Raises:
-            GraphRefusedError: The graph is unknown.
-        """
+        """See `GraphRun.stop`."""
         self._get(name).stop()
 
     def pause_all(self) -> None:
@@ -305,12 +280,7 @@ class GraphRuns:
 
     def _refuse_if_latched(self, name: str) -> None:
         if self.latched:
-            raise _refused(
-                name,
-                "stop_latched",
-                f"{self._actor} was stopped by the emergency stop",
-                "make sure that it is safe, reset the stop, then go on",
-            )
+            raise stop_latched(name, self._actor)
 
     def _forget_ended(self) -> None:
         ended = [
@@ -327,6 +297,15 @@ class GraphRuns:
         newest = reversed(ended[-KEPT_ENDED:])
         nodes = itertools.accumulate(len(self._runs[name].snapshot().nodes) for name in newest)
         return max(1, sum(count <= KEPT_NODES for count in nodes))
+
+
+def stop_latched(name: str, actors: str) -> GraphRefusedError:
+    """Why nothing of the graph of that name may run: an emergency stop is in force at those actors."""
+    text, remedy = (
+        "was stopped by the emergency stop",
+        "make sure that it is safe, reset the stop, then go on",
+    )
+    return _refused(name, "stop_latched", f"{actors} {text}", remedy)
 
 
 def _refused(name: str, code: str, message: str, remedy: str) -> GraphRefusedError:

@@ -7,7 +7,7 @@ from collections.abc import Awaitable, Callable, Collection, Coroutine, Mapping,
 from typing import Any, Literal
 
 from parley.clock import Clock
-from parley.engine.runs import GraphRuns
+from parley.engine.runs import GraphRuns, stop_latched
 from parley.engine.sync import PEER_TIMEOUT_S, Session, Sync
 from parley.errors import GraphRefusedError, Problem
 from parley.messages.status import ActorStatus, SyncEntry, SyncNotice
@@ -124,18 +124,7 @@ class Together:
         run = self._runs.get(name)
         others = run.peers.others if run is not None and isinstance(run.peers, Session) else ()
         if stopped := self._sync.stopped(others):
-            names = ", ".join(stopped)
-            raise GraphRefusedError(
-                name,
-                [
-                    Problem(
-                        "",
-                        f"{names} was stopped by the emergency stop",
-                        "make sure that it is safe, reset the stop, then go on",
-                        "stop_latched",
-                    )
-                ],
-            )
+            raise stop_latched(name, ", ".join(stopped))
 
     def modify(self, graph: Graph, text: str, continue_from: str, targets: Sequence[str]) -> None:
         """See `GraphRuns.modify`; of a graph of several actors only if all of them can do it.

@@ -10,7 +10,7 @@ import math
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal
+from typing import Any, Final, Literal, NamedTuple
 
 from parley.errors import ActionFailure, FailureCode
 from parley.messages.pvf import NATIVE_TYPES, Parameter, fits_type
@@ -39,8 +39,7 @@ _COMPARABLE = ("string", "number", "bool")
 """Types whose allowed values are compared; any list blocks the others (4.4)."""
 
 
-@dataclass(frozen=True, slots=True)
-class Effect:
+class Effect(NamedTuple):
     """Something to be done, in the order in which propagation gave it."""
 
     kind: Literal["run", "stop", "pause", "restart", "bypassed", "fail", "finish"]
@@ -50,6 +49,14 @@ class Effect:
     """For `finish` the graph's result, for `bypassed` what is passed on."""
     message: str = ""
     """For `fail`: why the node cannot run."""
+
+
+_ASKED: Final[Mapping[Response, Literal["run", "stop", "pause", "restart"]]] = {
+    Response.RUN: "run",
+    Response.STOP: "stop",
+    Response.PAUSE: "pause",
+    Response.RESTART: "restart",
+}
 
 
 @dataclass(slots=True, eq=False)
@@ -353,21 +360,12 @@ class Flow:
         """Do what the edge says once the child is ready; a value that is not allowed is the child's error."""
         if child.missing_edges():
             return []
-        child.starved = response is Response.RUN and bool(child.missing_inputs())
-        if child.missing_inputs():
-            return (
-                [Effect("fail", child.name, message=refused)] if refused and response is Response.RUN else []
-            )
-        match response:
-            case Response.RUN:
-                return [Effect("run", child.name)]
-            case Response.STOP:
-                return [Effect("stop", child.name)]
-            case Response.PAUSE:
-                return [Effect("pause", child.name)]
-            case Response.RESTART:
-                return [Effect("restart", child.name)]
-        return []
+        runs = response is Response.RUN
+        lacks = bool(child.missing_inputs())
+        child.starved = runs and lacks
+        if lacks:
+            return [Effect("fail", child.name, message=refused)] if refused and runs else []
+        return [Effect(_ASKED[response], child.name)]
 
     def _reaches_exit(self, parent: FlowNode, result: Result, outputs: Mapping[str, Any]) -> bool:
         """Whether this end of an exit action ends the graph (5.3, 6)."""

@@ -38,7 +38,13 @@ NOTHING: Final[Mapping[str, Any]] = MappingProxyType({})
 """No values."""
 
 
-class NodeState(StrEnum):
+class _Word(StrEnum):
+    """A closed list of words that is looked up for each change: by the text's own hash, which is kept."""
+
+    __hash__ = str.__hash__
+
+
+class NodeState(_Word):
     """State of an action node (8.1); the spellings are the contract."""
 
     UNINITIALIZED = "UNINITIALIZED"
@@ -52,7 +58,7 @@ class NodeState(StrEnum):
     ERROR = "ERROR"
 
 
-class GraphState(StrEnum):
+class GraphState(_Word):
     """State of a graph (8.2)."""
 
     UNINITIALIZED = "UNINITIALIZED"
@@ -77,7 +83,7 @@ ACTIVE: Final = frozenset(
 """States of a node of which a run is going on, standing still included."""
 
 
-class Result(StrEnum):
+class Result(_Word):
     """How a node ended (5.3), and how a whole graph did (8.3)."""
 
     ON_TRUE = "on_true"
@@ -88,7 +94,7 @@ class Result(StrEnum):
     """Graphs only."""
 
 
-class Response(StrEnum):
+class Response(_Word):
     """What a child does when a parent ended so (5.3)."""
 
     RUN = "run"

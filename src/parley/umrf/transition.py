@@ -18,12 +18,17 @@ __all__ = ["Announcer", "Observer", "Transition"]
 log = structlog.get_logger(__name__)
 
 
+Kind = Literal["graph", "node", "progress"]
+
+
 class Transition(NamedTuple):
     """One change of a graph or of one of its nodes, or a sign of progress; a tuple as very many are made."""
 
     sequence: int
     """From 0, per run of a graph."""
-    kind: Literal["graph", "node", "progress"]
+    kind: Kind
+    robot_time_s: float = 0.0
+    unix_ms: int = 0
     state: str = ""
     """Node or graph state afterwards; empty for progress."""
     node: str = ""
@@ -42,8 +47,6 @@ class Transition(NamedTuple):
     progress: float | None = None
     """0 to 1, None if not known."""
     progress_text: str = ""
-    robot_time_s: float = 0.0
-    unix_ms: int = 0
 
 
 Observer = Callable[[Transition], None]
@@ -59,7 +62,7 @@ class Announcer:
 
     def graph(self, state: GraphState, cause: str, result: Result | None, message: str = "") -> None:
         """The graph is now in `state`."""
-        self._tell("graph", state=state.value, cause=cause, result=result, message=message)
+        self._tell(Transition(*self._next("graph"), state.value, cause=cause, result=result, message=message))
 
     def node(
         self,
@@ -80,36 +83,26 @@ class Announcer:
         if facts:
             told = {name: Parameter(native_type(value), value) for name, value in facts.items()}
             outputs = {**outputs, **told}
-        self._tell(
-            "node",
-            state=item.state.value,
-            node=item.name,
-            instance_id=item.node.instance_id,
-            cause=cause,
-            result=result,
-            outputs=outputs,
-            message=item.log[-1].message if item.state is NodeState.ERROR and item.log else "",
-        )
+        message = item.log[-1].message if item.state is NodeState.ERROR and item.log else ""
+        state, name, number = item.state.value, item.name, item.node.instance_id
+        self._tell(Transition(*self._next("node"), state, name, number, cause, result, outputs, message))
 
     def progress(self, node: Node, fraction: float | None, text: str) -> None:
         """A node got on."""
-        self._tell(
-            "progress",
+        made = Transition(
+            *self._next("progress"),
             node=node.full_name,
             instance_id=node.instance_id,
             progress=fraction,
             progress_text=clean_text(text),
         )
+        self._tell(made)
 
-    def _tell(self, kind: Literal["graph", "node", "progress"], **what: Any) -> None:
-        transition = Transition(
-            sequence=self._sequence,
-            kind=kind,
-            robot_time_s=self._clock.now_s(),
-            unix_ms=self._clock.unix_ms(),
-            **what,
-        )
+    def _next(self, kind: Kind) -> tuple[int, Kind, float, int]:
         self._sequence += 1
+        return self._sequence - 1, kind, self._clock.now_s(), self._clock.unix_ms()
+
+    def _tell(self, transition: Transition) -> None:
         if self._observer is None:
             return
         try:
