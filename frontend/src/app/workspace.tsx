@@ -14,16 +14,20 @@ import type { Layout } from '@/ui/use-media';
 
 import css from './workspace.module.css';
 
-/** Chat, plan, pictures and map side by side, as far as there is room. */
+/** The chat with pictures and map; the plan comes with the first one that there is. */
 export function Workspace({ layout }: { layout: Layout }) {
   const pages = offered(useWorld((world) => world.info), useMayAll());
+  const isPlanned = useWorld((world) => Object.values(world.plans).some((plan) => plan.graph_name) || Object.keys(world.proposals).length > 0);
+  // It stays when nothing is planned any more: no button moves away under a finger.
+  const [hasPlan, setHasPlan] = useState(isPlanned);
+  if (isPlanned && !hasPlan) setHasPlan(true);
   if (layout === 'phone') return <Narrow hasDisplay={pages.includes('display')} />;
   return (
-    <div className={css.grid} data-layout={layout}>
+    <div className={css.grid} data-layout={layout} data-plan={hasPlan}>
       <Area name="chat">
         <ChatPanel />
       </Area>
-      {pages.includes('plan') && (
+      {hasPlan && pages.includes('plan') && (
         <Area name="plan">
           <PlanPanel />
         </Area>
@@ -33,7 +37,7 @@ export function Workspace({ layout }: { layout: Layout }) {
           <DisplayPanel />
         </Area>
       )}
-      {layout === 'desktop' && pages.includes('map') && (
+      {pages.includes('map') && (
         <Area name="map">
           <MapPanel />
         </Area>

@@ -13,6 +13,7 @@ import css from './history.module.css';
 import { undelivered, useOutbox } from '@/state/outbox';
 import { PendingEntry } from './pending-entry';
 import { offering } from '@/live/questions';
+import { Thinking } from './thinking';
 import { useMomentShown } from './use-moment';
 import { useStickToEnd } from './use-stick-to-end';
 
@@ -96,6 +97,7 @@ export function History({ entries, asked, onChoose, onEdit, empty }: Props) {
             <PendingEntry key={message.id} message={message} />
           ))}
         </ol>
+        <Thinking last={waiting.length > 0 ? undefined : entries.at(-1)} />
       </div>
       {!atEnd && (
         <div className={css.jump}>
