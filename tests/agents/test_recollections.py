@@ -18,6 +18,7 @@ from parley.agents.memory import MemoryNode
 from parley.agents.planner.umrf_planner import UmrfPlanner
 from parley.clock import WallClock
 from parley.demos.observer import Observer
+from parley.gate.rule_talk import RuleTalk
 from parley.language.base import Language, Picture, Situation
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.scripted import ScriptedLanguage
@@ -86,7 +87,7 @@ async def house() -> AsyncIterator[House]:
 
 @asynccontextmanager
 async def opened_house(
-    engine: Language | None = None, objects: Sequence[MapObject] = ()
+    engine: Language | None = None, objects: Sequence[MapObject] = (), rules: RuleTalk | None = None
 ) -> AsyncIterator[House]:
     language, clock = ScriptedLanguage(engine), WallClock()
     async with (
@@ -95,7 +96,7 @@ async def opened_house(
         MemoryNode(transport, store, language),
         DisplayInterface(transport, clock, min_interval_s=0.0),
         UmrfPlanner(transport, clock),
-        ChatInterface(transport, engine or language, clock, objects=lambda _: objects),
+        ChatInterface(transport, engine or language, clock, objects=lambda _: objects, rules=rules),
         Observer(transport, clock, lambda _: None) as observer,
     ):
         house = House(transport, store, language, observer)

@@ -7,7 +7,11 @@ from collections.abc import AsyncIterator
 
 import pytest
 
+from parley.clock import WallClock
+from parley.gate.book import RuleBook
 from parley.gate.orders import Heard, admit
+from parley.gate.rule_talk import RuleTalk
+from parley.gate.rules import RuleKeeper
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatInput, SystemCommand
@@ -64,6 +68,17 @@ async def test_teaching_which_one_is_meant_answers_the_question_about_it() -> No
         await house.say("by the den I mean the red tray")
         await house.say("which words did I teach you?")
         assert len(house.observer.said) == 5  # nothing was done again
+
+
+async def test_a_rule_may_speak_of_a_place_by_the_name_that_was_taught_for_it() -> None:
+    book = RuleBook(WallClock())
+    rules = RuleTalk(book, RuleKeeper(book))
+    async with opened_house(BuiltinLanguage(), (thing("blue tray", 1),), rules) as house:
+        house.observer.publish(topics.ACTOR_STATUS, ActorStatus(actor="A", catalogue=CATALOGUE))
+        assert "do not know where" in (await house.say("keep out of my corner")).message
+        await house.say("by my corner I mean the blue tray")
+        asked = await house.say("keep out of my corner")
+        assert asked.message.startswith("I understand this as a rule: Stays out of “corner”")
 
 
 async def test_what_cannot_be_taught_is_said_and_not_kept(house: House) -> None:

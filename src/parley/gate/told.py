@@ -335,7 +335,7 @@ def _stem(word: str) -> str:
 
 def _area(words: str, world: _World, margin_m: float = _MARGIN_M) -> dict[str, Any] | NotUnderstood:
     """The place on the map that words mean."""
-    words = re.sub(r"^(?:the|a|an)\s+|^(?:läbi)\s+", "", words.strip(" ,."))
+    words = re.sub(r"^(?:the|a|an|my|our)\s+|^(?:läbi)\s+", "", words.strip(" ,."))
     for zone in world.zones:
         if zone.corners and words in {zone.name.casefold() + end for end in _ENDINGS}:
             return {"name": zone.name, "map": zone.map, "rectangle": zone.rectangle, "polygon": zone.polygon}

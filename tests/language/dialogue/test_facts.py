@@ -160,12 +160,17 @@ async def test_thanks_wishes_and_insults_are_no_facts(message: str) -> None:
         ("go to the moon, Kim said so", []),
     ],
 )
-async def test_a_fact_beside_an_order_that_is_asked_about_is_kept_and_said(
+async def test_a_fact_beside_an_order_that_is_asked_about_is_kept_in_mind(
     message: str, kept: list[str]
 ) -> None:
     answer = await ENGINE.interpret(situation(message))
-    assert (stored(answer), answer.queue) == (kept, ())
-    assert all(f"remember that {fact}" in answer.message_response for fact in kept)
+    assert (stored(answer), answer.queue) == ([], ())
+    said = answer.message_response
+    assert all(f"keep in mind that {fact}. " in said for fact in kept) and ("in mind" in said) == bool(kept)
+    after = (Turn("operator", message), Turn("assistant", said))
+    asked = "where is Kim?" if "Kim" in message else "where is the red box?"
+    found = (await ENGINE.interpret(situation(asked, history=after))).message_response
+    assert all(fact.rpartition(" ")[2] in found for fact in kept)
 
 
 async def test_a_stop_is_for_whom_it_calls() -> None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import uuid
 from collections.abc import Awaitable, Callable, Sequence
+from dataclasses import replace
 from typing import ClassVar, Final
 
 from parley.agents.base import Mailboxes, Node
@@ -32,7 +33,9 @@ from parley.gate.rule_talk import Listener, RuleReply, RuleTalk
 from parley.gate.table import Effect, verdict
 from parley.language.base import Language
 from parley.language.control import Control, control_of
+from parley.language.dialogue.taught import taught_in, with_names
 from parley.language.stop_words import calls_to_stop, is_no, only_takes_back, opens_with_no
+from parley.memory.client import recall
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.failure import ErrorHandlingMessage
@@ -302,6 +305,9 @@ class ChatInterface(Node):
             status.catalogue if status else (),
             busy=self._known.state(target) != "idle",
         )
+        if self._rules is not None and self._rules.concerns(said.message, to):  # names of their own are names
+            known = taught_in(await recall(self.transport, said.message, scope=target))
+            to = replace(to, places=with_names(self._known.objects(target), known))
         reply = self._rules and await self._rules.reply(said.message, said.who, to, answers=ours)
         if not reply:
             return False

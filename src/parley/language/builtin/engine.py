@@ -35,6 +35,7 @@ from parley.language.builtin.structure import Part
 from parley.language.builtin.tagger import shipped_tagger
 from parley.language.builtin.things import head_of, link
 from parley.language.builtin.tokens import Token, spoken, tokenize
+from parley.language.dialogue.facts import in_mind
 from parley.language.dialogue.replies import read_reply
 from parley.language.dialogue.state import Asked, Dialogue, Order
 from parley.language.dialogue.taught import founded, taught_in, with_names
@@ -121,6 +122,7 @@ class BuiltinLanguage:
         if not any(token.is_word for token in tokenize(situation.message)):
             return Ask("I did not understand that. Please say what I should do.")
         situation = self._with_past(situation)
+        situation = replace(situation, memory=(*situation.memory, *in_mind(situation)))
         if (taught := own_words(situation, self._lexicon, self.decide)) is not None:
             return taught
         situation = replace(situation, objects=with_names(situation.objects, taught_in(situation.memory)))

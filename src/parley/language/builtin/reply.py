@@ -19,6 +19,7 @@ from parley.language.builtin.decision import (
     Told,
 )
 from parley.language.builtin.lexicon import Lexicon
+from parley.language.dialogue.facts import IN_MIND
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 from parley.messages.pvf import NATIVE_TYPES, native_type
 
@@ -46,9 +47,11 @@ def to_chat(decision: Decision, lexicon: Lexicon) -> ChatAction:
         case Ask(question, choices, told=told):
             stop = (SystemCommand(command="stop"),) if decision.stops else ()
             return ChatAction(
-                message_response=" ".join([*map(_remembered, told), question]),
+                message_response=" ".join(
+                    [*(f"{IN_MIND} {fact.text.removeprefix('that ')}." for fact in told), question]
+                ),
                 choices=choices,
-                system_cmd=(*stop, *_memories(told)),
+                system_cmd=stop,
                 alarm=decision.alarms,
                 offer=_calls(decision.offer, lexicon),
                 needs_yes=decision.unclear,

@@ -17,7 +17,10 @@ from parley.language.dialogue.questions import asks
 from parley.language.stop_words import calls_to_stop, has_stop_word
 from parley.messages.memory import MemoryEntry
 
-__all__ = ["forgotten", "is_report", "is_wish", "moved_fact", "other_fact", "taken_back", "worth_keeping"]
+__all__ = [
+    "IN_MIND", "forgotten", "in_mind", "is_report", "is_wish", "moved_fact", "other_fact", "taken_back",
+    "worth_keeping",
+]  # fmt: skip
 
 _PRONOUNS: Final = frozenset({"he", "she", "they", "it", "this", "that", "these", "those", "they're", "it's"})
 _POINTING: Final = frozenset({"this", "that", "these", "those"})
@@ -87,6 +90,10 @@ def is_report(text: str) -> bool:
     return not _KEEP.search(low) and "should" not in low and _HAPPENED.search(low) is not None
 
 
+IN_MIND: Final = "For now I keep in mind that"
+"""How the robot says what is not remembered yet."""
+
+
 def worth_keeping(situation: Situation, bare: str, *, beside: bool = False) -> bool:
     """Whether a message can be a fact at all: no stop, no question, no answer to one, no order to go on.
 
@@ -103,6 +110,15 @@ def worth_keeping(situation: Situation, bare: str, *, beside: bool = False) -> b
         or control_of(message, situation.robots) is not None
         or (situation.question and _KEEP.match(bare) is None and _NAME.match(message.strip()) is None)
     )
+
+
+def in_mind(situation: Situation) -> tuple[MemoryEntry, ...]:
+    """What was told beside an order that was asked about: it counts as long as the conversation goes on."""
+    told = [
+        turn.content for turn in situation.history if turn.role == "assistant" and IN_MIND in turn.content
+    ]
+    facts = [fact for text in told for fact in re.findall(rf"{IN_MIND} (.+?)\.(?:\s|$)", text)]
+    return tuple(MemoryEntry(name=f"in_mind_{at}", data=fact) for at, fact in enumerate(facts))
 
 
 def moved_fact(
