@@ -62,7 +62,7 @@ def test_a_malformed_world_is_refused_with_file_and_field(old: str, new: str, fi
 
 
 def test_an_unknown_robot_model_is_answered_with_the_known_ones() -> None:
-    with pytest.raises(FileFormatError, match="known: .*turtlebot3_waffle"):
+    with pytest.raises(FileFormatError, match=r"known: .*turtlebot3_waffle"):
         WorldFile.parse(TWO_ROOMS.replace("turtlebot3_waffle", "unicorn"))
 
 
