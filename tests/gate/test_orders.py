@@ -81,6 +81,8 @@ def test_a_memory_goes_at_once_only_by_words_that_ask_for_just_that(words: str, 
     ("words", "data", "way"),
     [
         ("the lamp stands on the red box", "The lamp is on the red box.", "told"),
+        ("I am by the shelf", "Kim is by the shelf", "told"),
+        ("there is a shelf", "Kim is by the shelf", "concluded"),
         ("hello", "Kim said: always drive to the river.", "concluded"),
         ("is the lamp broken?", "Go to the river whenever somebody asks.", "concluded"),
     ],

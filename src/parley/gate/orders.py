@@ -205,6 +205,10 @@ def _overlaps(choice: str, words: str) -> bool:
     return bool(said) and said <= set(re.findall(r"\w+", choice.casefold()))
 
 
+_ONESELF: Final = re.compile(r"\b(?:i|i['’]m|me|my|we|our)\b", re.IGNORECASE)
+"""Who speaks of themselves need not say their name."""
+
+
 def _memory(command: SystemCommand, heard: Heard) -> SystemCommand:
     """A memory with its true source: told only if the person's words bear it out, else concluded."""
     given: dict[str, Any] = {
@@ -213,7 +217,8 @@ def _memory(command: SystemCommand, heard: Heard) -> SystemCommand:
         if key in ("name", "data", "info", "type") and isinstance(value, str)
     }
     data = str(given.get("data", ""))
-    told = heard.by.is_person and is_said(data, heard.words, heard.earlier)
+    words = f"{heard.words} {heard.by.name}" if _ONESELF.search(heard.words) else heard.words
+    told = heard.by.is_person and is_said(data, words, heard.earlier)
     name = one_line(str(given.get("name", "")))[:200] or f"memory_{uuid.uuid4().hex[:12]}"
     told = told and not is_taught_name(name)  # what words mean is taught by a person, never by an engine
     before = next((entry for entry in heard.known if entry.name == name), None)

@@ -8,6 +8,7 @@ from parley.errors import FailureCode
 from parley.language.base import ErrorSituation, Situation, Turn
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.builtin.tokens import tokenize
+from parley.language.dialogue.following import in_turn
 from parley.language.dialogue.places import rooms, whereabouts
 from parley.language.dialogue.questions import plain, question_of, shapes
 from parley.language.dialogue.state import Asked, Deed, Dialogue, Order, Stop
@@ -166,3 +167,17 @@ async def test_while_a_failure_is_asked_about_questions_are_answered_from_it(mes
         Situation(message, objects=THINGS, robot="Ada", question="Shall I try again?", failure=failed)
     )
     assert "A crate is in the way." in answer.message_response
+
+
+@pytest.mark.parametrize(
+    ("message", "kept"),
+    [
+        ("come to me when you are done", "come to me"),
+        ("when you're finished with that, go to the gate", "go to the gate"),
+        ("go to the gate once you have finished, please", "go to the gate please"),
+        ("go to the gate after you're done with the boxes", None),
+        ("tell me when you are done", None),
+    ],
+)
+def test_an_order_for_afterwards_is_an_order(message: str, kept: str | None) -> None:
+    assert in_turn(message) == (kept or message)

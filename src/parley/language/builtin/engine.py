@@ -36,6 +36,7 @@ from parley.language.builtin.tagger import shipped_tagger
 from parley.language.builtin.things import head_of, link
 from parley.language.builtin.tokens import Token, spoken, tokenize
 from parley.language.dialogue.facts import in_mind
+from parley.language.dialogue.following import in_turn
 from parley.language.dialogue.replies import read_reply
 from parley.language.dialogue.state import Asked, Dialogue, Order
 from parley.language.dialogue.taught import founded, taught_in, with_names
@@ -121,7 +122,7 @@ class BuiltinLanguage:
             return Ask("That is too much at once. Please say it in shorter pieces.")
         if not any(token.is_word for token in tokenize(situation.message)):
             return Ask("I did not understand that. Please say what I should do.")
-        situation = self._with_past(situation)
+        situation = self._with_past(replace(situation, message=in_turn(situation.message)))
         situation = replace(situation, memory=(*situation.memory, *in_mind(situation)))
         if (taught := own_words(situation, self._lexicon, self.decide)) is not None:
             return taught

@@ -17,7 +17,7 @@ from parley.language.dialogue.state import Order
 from parley.messages.status import PlanStep
 from parley.world.object_map import MapObject
 
-__all__ = ["followed"]
+__all__ = ["followed", "in_turn"]
 
 _SMALL: Final = frozenset(
     {
@@ -34,6 +34,26 @@ _LINKING: Final = re.compile(
 )
 _GOING: Final = frozenset({"go", "drive", "move", "head"})
 _LONGEST: Final = 12
+
+
+def in_turn(message: str) -> str:
+    """A message without "when you are done": every order waits for what the robot is at anyway."""
+    if _TELLING.search(message):
+        return message
+    return _DONE.sub(" ", message).strip(" ,") or message
+
+
+_TELLING: Final = re.compile(
+    r"\b(?:tell|say|know|report|call|inform|notify|message|shout|beep)\b", re.IGNORECASE
+)
+
+
+_DONE: Final = re.compile(
+    r"(?:^|,?\s*\b)(?:when|once|after|as soon as)\s+you(?:\s+are|'re|’re|\s+have|'ve|’ve)\s+(?:all\s+)?"
+    r"(?:done|finished|through)\b(?:\s+(?:with\s+)?(?:that|this|it|there|here|everything|all\s+that|the\s+rest|"
+    r"your\s+(?:work|task|job|round|plan)|what\s+you\s+are\s+doing))?(?=\s*(?:[.,!]|$|\bplease\b))[\s,]*",
+    re.IGNORECASE,
+)
 
 
 def followed(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, last: Order) -> Change | None:
