@@ -26,7 +26,7 @@ _MANY: Final = 200
 """If more graphs than this wait, there is no rest, as all that wait are kept for so long; and several are
 written in one turn of the loop, as starts may take the most of each."""
 
-_TURN_S: Final = 0.001
+_TURN_S: Final = 0.0005
 """Wall time in a turn of the loop after which nothing more is written in it."""
 
 _SLICE: Final = 50
