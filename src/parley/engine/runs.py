@@ -283,20 +283,20 @@ class GraphRuns:
             raise stop_latched(name, self._actor)
 
     def _forget_ended(self) -> None:
-        ended = [
-            name
-            for name, run in self._runs.items()
-            if (run.state in ENDED or (run.outer and run.state is GraphState.HALTED)) and run.idle
-        ]
-        halted = [name for name, run in self._runs.items() if run.state is GraphState.HALTED and run.idle]
-        for name in {*ended[: -self._kept(ended)], *halted[:-KEPT_HALTED]}:
-            del self._runs[name]
+        ended: list[GraphRun] = []
+        halted: list[GraphRun] = []
+        for run in self._runs.values():
+            if (run.state in ENDED or run.state is GraphState.HALTED) and run.idle:
+                ran_dry = run.state is GraphState.HALTED and not run.outer
+                (halted if ran_dry else ended).append(run)
+        for run in (*ended[: -_kept(ended)], *halted[:-KEPT_HALTED]):
+            del self._runs[run.name]
 
-    def _kept(self, ended: Sequence[str]) -> int:
-        """How many of the newest of `ended` are kept; at least one."""
-        newest = reversed(ended[-KEPT_ENDED:])
-        nodes = itertools.accumulate(len(self._runs[name].snapshot().nodes) for name in newest)
-        return max(1, sum(count <= KEPT_NODES for count in nodes))
+
+def _kept(ended: Sequence[GraphRun]) -> int:
+    """How many of the newest of `ended` are kept; at least one."""
+    nodes = itertools.accumulate(run.size for run in reversed(ended[-KEPT_ENDED:]))
+    return max(1, sum(count <= KEPT_NODES for count in nodes))
 
 
 def stop_latched(name: str, actors: str) -> GraphRefusedError:

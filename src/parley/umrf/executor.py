@@ -258,6 +258,11 @@ class GraphRun:
         return not self._runs and all(inner.idle for inner in self._left)
 
     @property
+    def size(self) -> int:
+        """How many nodes it has."""
+        return len(self._flow.nodes)
+
+    @property
     def over(self) -> bool:
         """Whether no command changes anything any more, nor in graphs inside of it."""
         return self.state in ENDED and not self._runs and all(inner.over for inner in self._left)
