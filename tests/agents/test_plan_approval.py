@@ -273,20 +273,35 @@ async def test_pausing_does_not_make_an_edit_too_late() -> None:
 
 
 @pytest.mark.parametrize(
-    ("step", "path"),
+    ("step", "path", "why"),
     [
-        (ActionCall(name="Fly"), "steps[1].name"),
-        (ActionCall(name="Look"), "steps[1].input_parameters.what"),
-        (look("lid").model_copy(update={"flow": Flow(together_with=0)}), "steps[1].flow.together_with"),
-        (look("lid").model_copy(update={"flow": Flow(if_=FlowIf(step=9))}), "steps[1].flow"),
+        (ActionCall(name="Fly"), "steps[1].name", "I cannot do such a thing"),
+        (
+            ActionCall(name="Look"),
+            "steps[1].input_parameters.what",
+            "something that it needs is not given",
+        ),
+        (
+            look("lid").model_copy(update={"flow": Flow(together_with=0)}),
+            "steps[1].flow.together_with",
+            "it does not fit there",
+        ),
+        (
+            look("lid").model_copy(update={"flow": Flow(if_=FlowIf(step=9))}),
+            "steps[1].flow",
+            "it does not fit there",
+        ),
     ],
     ids=["unknown action", "missing value", "together with what has begun", "unknown step"],
 )
-async def test_impossible_edit_is_refused_with_place_and_remedy(step: ActionCall, path: str) -> None:
+async def test_impossible_edit_is_refused_with_place_and_remedy(
+    step: ActionCall, path: str, why: str
+) -> None:
     async with crew("A") as party:
         await begun(party, look("door"))
         decide(party, decision="edit", steps=[look("floor").model_dump(), step.model_dump()])
-        await party.hears("cannot carry out")
+        await party.hears("I cannot do step 2, “")
+        await party.hears(f"”: {why}. I left everything as it is.")
         problem = party.observer.refusals[-1].problems[0]
         assert problem.path == path
         assert problem.remedy
@@ -320,7 +335,7 @@ async def test_edit_that_drops_what_another_step_depends_on_is_refused() -> None
         await party.until(lambda: len(party.steps()) == 3)
         kept = party.observer.plans["A"].steps[2].action
         decide(party, decision="edit", steps=[kept.model_dump()])
-        await party.hears("cannot carry out")
+        await party.hears("I cannot do step 1, ")
         assert party.observer.refusals[-1].problems[0].path == "steps[0].flow"
 
 

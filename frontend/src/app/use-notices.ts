@@ -16,7 +16,7 @@ export function useNotices(): void {
       const { robot } = notice;
       const isStopped = moodOf(robot, useLive.getState().world) === 'stopped';
       const stands = ({ world }: { world: World }) => moodOf(robot, world) === 'stopped';
-      const message = [robot, notice.message].filter(Boolean).join(': ');
+      const message = notice.message.startsWith(robot) ? notice.message : `${robot}: ${notice.message}`;
       show({ tone: 'error', message, ...(isStopped && { stands }) });
     }
   }, [notices, show]);

@@ -1,5 +1,6 @@
 /** Entities for tests, complete and unremarkable; a test says only what matters to it. */
 import type {
+  AbilityView,
   ChatEntry,
   Incident,
   LogPage,
@@ -26,6 +27,23 @@ export const robot = (part: Partial<RobotView> & { name: string }): RobotView =>
   stop: { state: 'none', id: '', sent_unix_ms: 0, at_rest_unix_ms: 0 },
   graphs: {},
   catalogue: [],
+  ...part,
+});
+
+export const ability = (part: Partial<AbilityView> & { name: string }): AbilityView => ({
+  inputs: {},
+  outputs: {},
+  optional: [],
+  description: '',
+  label: '',
+  phrases: [],
+  effects: [],
+  risk: 'low',
+  kind: 'moves',
+  capabilities: [],
+  examples: [],
+  duration_s: null,
+  timeout_s: null,
   ...part,
 });
 

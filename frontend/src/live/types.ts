@@ -19,6 +19,7 @@ export type RuleView = Schemas['RuleView'];
 export type RulesAnswer = Schemas['RulesAnswer'];
 export type StepView = Schemas['StepView'];
 export type ParameterView = Schemas['ParameterView'];
+export type ParameterInfo = Schemas['ParameterInfo'];
 export type FeedInfo = Schemas['FeedInfo'];
 export type MemoryItem = Schemas['MemoryItem'];
 export type Incident = Schemas['Incident'];

@@ -1,8 +1,8 @@
 import { describe, expect, it } from 'vitest';
 
-import { step } from '@/live/samples';
+import { ability, step } from '@/live/samples';
 
-import { callsOf, editable, inputsOf, moved, newStep, nudged, pendingSteps, putBack, setInput, toDrafts, type DraftStep } from './editing';
+import { addables, callsOf, editable, inputsOf, moved, nameOfAction, newStep, nudged, pendingSteps, putBack, setInput, toDrafts, type DraftStep } from './editing';
 
 const toDraft = (one: ReturnType<typeof step>) => toDrafts([one])[0] as DraftStep;
 const drafts = ['a', 'b', 'c'].map((id) => toDraft(step({ id })));
@@ -57,14 +57,26 @@ describe('changing a plan', () => {
     });
   });
 
-  it('makes a new step with names in levels', () => {
-    const made = newStep(
-      { name: 'GoTo', inputs: { 'pose::position::x': 'number' }, outputs: {}, optional: [], description: '', label: '', phrases: [], effects: [], risk: 'low', kind: 'moves', capabilities: [], examples: [], duration_s: null, timeout_s: null },
-      'n1',
-    );
-    expect(made.call).toEqual({
-      GoTo: { input_parameters: { pose: { position: { x: { pvf_type: 'number' } } } }, output_parameters: {} },
-    });
+  it('adds a drive with the search for its place, and says where it leads to', () => {
+    const goTo = ability({ name: 'GoTo', inputs: { 'pose::position::x': 'number' }, label: 'Go to {place}' });
+    const find = ability({ name: 'Find', inputs: { what: 'string' }, outputs: { 'pose::position::x': 'number' }, effects: ['locates'], label: 'Find {what}' });
+    const wait = ability({ name: 'Wait', inputs: { time: 'number' }, label: 'Wait for {time} seconds' });
+    const found = addables([find, goTo, wait]);
+    expect(found.map(({ action }) => nameOfAction(action))).toEqual(['Go to …', 'Wait for … seconds']);
+    const [drive, pause] = found.map((one) => newStep(one, 'n'));
+    if (!drive || !pause) throw new Error('there are two');
+    const there = setInput(drive, 'what', 'red box');
+    expect(there.label).toBe('Go to “red box”');
+    expect(callsOf([there])).toEqual([
+      { Find: { input_parameters: { what: { pvf_type: 'string', pvf_value: 'red box' } }, output_parameters: { pose: { position: { x: { pvf_type: 'number' } } } } } },
+      { GoTo: { input_parameters: { pose: { position: { x: { pvf_type: 'number' } } } }, output_parameters: {} } },
+    ]);
+    expect(setInput(pause, 'time', 5).label).toBe('Wait for 5 seconds');
+  });
+
+  it('says of a changed step what it is changed to', () => {
+    const draft = toDraft(step({ id: 'a', label: 'Mine kohta “box”', inputs: [{ name: 'what', type: 'string', value: 'box' }] }));
+    expect(setInput(draft, 'what', 'door').label).toBe('Mine kohta “door”');
   });
 
   it('puts a step back where it stood, however many have begun meanwhile', () => {

@@ -11,6 +11,8 @@ export interface DraftStep {
   action: string;
   inputs: readonly ParameterView[];
   call: ActionCall;
+  /** Of a new step: its label with `{parameter}` for values; `{place}` is what its search looks for. */
+  template?: string;
   /** Searches that are made only for its sake, right before it. */
   finding: readonly DraftStep[];
 }
@@ -32,12 +34,34 @@ export const callsOf = (steps: readonly DraftStep[]): readonly ActionCall[] =>
 /** What a person can change of a step, that of its searches first. */
 export const inputsOf = (step: DraftStep) => [...step.finding.flatMap((one) => one.inputs), ...step.inputs].filter(editable);
 
+/** What can be added: an action, with the search for its place if it takes one. */
+export interface Addable {
+  action: AbilityView;
+  finder: AbilityView | null;
+}
+
+/** All that a robot can do as steps; a search that a drive brings along does not stand alone. */
+export function addables(catalogue: readonly AbilityView[]): readonly Addable[] {
+  const all = catalogue.map((action): Addable => ({ action, finder: catalogue.find((one) => finds(one, action)) ?? null }));
+  return all.filter(({ action }) => !all.some(({ finder }) => finder === action));
+}
+
+/** Whether one action finds the place that the other needs. */
+function finds(finder: AbilityView, action: AbilityView): boolean {
+  const places = Object.keys(action.inputs ?? {}).filter((name) => PLACE.test(name));
+  return places.length > 0 && finder.effects.includes('locates') && places.every((name) => name in (finder.outputs ?? {}));
+}
+
+/** What an action is called among people. */
+export const nameOfAction = (action: AbilityView) => action.label.replaceAll(/\{\w+\}/g, '…') || inWords(action.name);
+
 /** A new step, its inputs still empty. */
-export function newStep(action: AbilityView, id: string): DraftStep {
+export function newStep({ action, finder }: Addable, id: string): DraftStep {
   const inputs = Object.entries(action.inputs ?? {}).map(([name, type]) => ({ name, type, value: null }));
   return {
     id,
-    label: inWords(action.name),
+    label: nameOfAction(action),
+    template: action.label,
     action: action.name,
     inputs,
     call: {
@@ -46,14 +70,23 @@ export function newStep(action: AbilityView, id: string): DraftStep {
         output_parameters: emptyTree(action.outputs ?? {}),
       },
     },
-    finding: [],
+    finding: finder ? [newStep({ action: finder, finder: null }, `${id} finds`)] : [],
   };
 }
 
-export function setInput(step: DraftStep, name: string, value: string | number | boolean): DraftStep {
+type Value = string | number | boolean;
+
+/** The step with another value, and a label that says so. */
+export function setInput(step: DraftStep, name: string, value: Value): DraftStep {
+  const before = inputsOf(step).find((input) => input.name === name)?.value;
+  const next = withValue(step, name, value);
+  return { ...next, label: step.template ? filled(next, step.template) : renamed(step.label, before, value) };
+}
+
+function withValue(step: DraftStep, name: string, value: Value): DraftStep {
   const searched = step.finding.find((one) => one.inputs.some((input) => input.name === name && editable(input)));
   if (searched) {
-    return { ...step, finding: step.finding.map((one) => (one === searched ? setInput(one, name, value) : one)) };
+    return { ...step, finding: step.finding.map((one) => (one === searched ? withValue(one, name, value) : one)) };
   }
   const input = step.inputs.find((one) => one.name === name);
   if (!input) return step;
@@ -63,6 +96,19 @@ export function setInput(step: DraftStep, name: string, value: string | number |
     call: withInput(step.call, name, input.type, value),
   };
 }
+
+const quoted = (value: unknown) => (typeof value === 'string' ? `“${value}”` : String(value));
+
+const filled = (step: DraftStep, template: string) =>
+  template.replaceAll(/\{(\w+)\}/g, (_, name: string) => {
+    const inputs = inputsOf(step);
+    const value = (inputs.find((input) => input.name === name) ?? (name === 'place' ? inputs[0] : undefined))?.value;
+    return value === null || value === undefined || value === '' ? '…' : quoted(value);
+  });
+
+/** The server's label with a value changed in it. */
+const renamed = (label: string, before: unknown, value: Value) =>
+  before === null || before === undefined ? label : label.replace(quoted(before), () => quoted(value));
 
 /** Move the steps `ids` in front of or behind `target`. */
 export function moved(
@@ -84,9 +130,10 @@ export function nudged(steps: readonly DraftStep[], id: string, by: -1 | 1): rea
   return neighbour ? moved(steps, new Set([id]), neighbour.id, by < 0 ? 'before' : 'after') : steps;
 }
 
+const PLACE = /(?:^|::)(?:position|orientation)::/;
+
 /** Inputs a person can write down: words, numbers and yes or no; places come from other steps. */
-export const editable = (input: ParameterView) =>
-  ['string', 'number', 'bool'].includes(input.type) && !/(?:^|::)(?:position|orientation)::/.test(input.name);
+export const editable = (input: ParameterView) => ['string', 'number', 'bool'].includes(input.type) && !PLACE.test(input.name);
 
 /**
  * Steps that were taken out, put where they stood. Where the robot has left for another place meanwhile, what is done

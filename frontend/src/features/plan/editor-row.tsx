@@ -1,8 +1,9 @@
 import { Button as AriaButton, Checkbox, GridListItem } from 'react-aria-components';
 import { useTranslation } from 'react-i18next';
 
-import type { ParameterView } from '@/live/types';
+import type { AbilityView, ParameterInfo, ParameterView } from '@/live/types';
 import { Button } from '@/ui/button';
+import { Choice } from '@/ui/choice';
 import { Icon } from '@/ui/icon';
 import { TextField } from '@/ui/text-field';
 import { inWords, sentence } from '@/ui/words';
@@ -12,6 +13,9 @@ import css from './plan-editor.module.css';
 
 interface Props {
   step: DraftStep;
+  catalogue: readonly AbilityView[];
+  /** What robots can be sent to. */
+  places: readonly string[];
   isFirst: boolean;
   isLast: boolean;
   onMove: (by: -1 | 1) => void;
@@ -20,9 +24,12 @@ interface Props {
 }
 
 /** One step that can be moved, changed and removed. */
-export function EditorRow({ step, isFirst, isLast, onMove, onRemove, onChange }: Props) {
+export function EditorRow({ step, catalogue, places, isFirst, isLast, onMove, onRemove, onChange }: Props) {
   const { t } = useTranslation('plan');
   const inputs = inputsOf(step);
+  const actions = [step, ...step.finding].map((one) => one.action);
+  const known = catalogue.filter((one) => actions.includes(one.name));
+  const about = (name: string) => known.map((one) => one.parameters?.[name]).find((one) => one !== undefined);
   return (
     <GridListItem id={step.id} textValue={step.label} className={css.row ?? ''}>
       <div className={css.head}>
@@ -37,7 +44,7 @@ export function EditorRow({ step, isFirst, isLast, onMove, onRemove, onChange }:
       {inputs.length > 0 && (
         <div className={css.inputs}>
           {inputs.map((input) => (
-            <Input key={input.name} input={input} onChange={(value) => onChange(input.name, value)} />
+            <Input key={input.name} input={input} about={about(input.name)} places={places} onChange={(value) => onChange(input.name, value)} />
           ))}
         </div>
       )}
@@ -45,8 +52,20 @@ export function EditorRow({ step, isFirst, isLast, onMove, onRemove, onChange }:
   );
 }
 
-function Input({ input, onChange }: { input: ParameterView; onChange: (value: string | number | boolean) => void }) {
-  const label = inWords(input.name);
+interface InputProps {
+  input: ParameterView;
+  about: ParameterInfo | undefined;
+  places: readonly string[];
+  onChange: (value: string | number | boolean) => void;
+}
+
+/** A field of the kind that the input is of; places and closed lists are chosen from. */
+function Input({ input, about, places, onChange }: InputProps) {
+  const { t } = useTranslation('plan');
+  const label = labelOf(input, about, t('place'));
+  const value = String(input.value ?? '');
+  const listed = about?.kind === 'place' ? places : (about?.choices ?? []);
+  if (listed.length > 0) return <Listed label={label} value={value} listed={listed} onChange={onChange} />;
   if (input.type === 'bool') {
     return (
       <Checkbox className={css.check ?? ''} isSelected={input.value === true} onChange={onChange}>
@@ -60,11 +79,32 @@ function Input({ input, onChange }: { input: ParameterView; onChange: (value: st
     <TextField
       label={label}
       type={isNumber ? 'number' : 'text'}
-      value={input.value === null || input.value === undefined ? '' : String(input.value)}
+      value={value}
       onChange={(text) => {
         if (!isNumber) onChange(text);
         else if (text !== '' && Number.isFinite(Number(text))) onChange(Number(text));
       }}
     />
   );
+}
+
+interface ListedProps {
+  label: string;
+  value: string;
+  listed: readonly string[];
+  onChange: (value: string) => void;
+}
+
+/** One of a list; what is there already and not in it stays to be chosen. */
+function Listed({ label, value, listed, onChange }: ListedProps) {
+  const { t } = useTranslation('plan');
+  const options = value && !listed.includes(value) ? [value, ...listed] : listed;
+  const named = options.map((one) => ({ id: one, label: sentence(one) }));
+  return <Choice label={label} placeholder={t('choose')} value={value || null} options={named} onChange={onChange} />;
+}
+
+function labelOf(input: ParameterView, about: ParameterInfo | undefined, place: string): string {
+  if (about?.kind === 'place') return place;
+  const name = inWords(input.name);
+  return about?.unit ? `${name} (${about.unit})` : name;
 }

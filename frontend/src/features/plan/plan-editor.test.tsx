@@ -2,6 +2,10 @@ import { render, screen, within } from '@testing-library/react';
 import userEvent from '@testing-library/user-event';
 import { describe, expect, it, vi } from 'vitest';
 
+import { network } from '@/gallery/network';
+import { ability, mapInfo, mapView, robot, snapshot } from '@/live/samples';
+import { useLive } from '@/live/store';
+
 import type { DraftStep } from './editing';
 import { PlanEditor } from './plan-editor';
 
@@ -24,5 +28,19 @@ describe('editing a plan', () => {
     expect(editor.queryByText('“dry” was removed.')).toBeNull();
     await user.click(editor.getByText('Save'));
     expect(saved()).toEqual(['wash', 'dry', 'fold']);
+  });
+
+  it('lets the place of a step be chosen from what is on the map', async () => {
+    vi.stubGlobal('fetch', network({ map: { json: mapInfo } }));
+    const go = ability({ name: 'Go', inputs: { where: 'string' }, label: 'Go to {where}', parameters: { where: { kind: 'place', unit: '', default: null, choices: [], help: '' } } });
+    useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada', catalogue: [go] })], views: [mapView] }));
+    const { user } = edit();
+    await user.click(screen.getByRole('button', { name: /Add a step/ }));
+    await user.click(screen.getByRole('option', { name: 'Go to …' }));
+    await user.click(await screen.findByRole('button', { name: /Place/ }));
+    expect(screen.getAllByRole('option').map((one) => one.textContent)).toEqual(['Front door', 'Hall', 'Red box']);
+    await user.click(screen.getByRole('option', { name: 'Red box' }));
+    screen.getByText('Go to “red box”');
+    expect(screen.queryByRole('textbox')).toBeNull();
   });
 });

@@ -1,4 +1,4 @@
-import { useEffect, useRef, useState } from 'react';
+import { useEffect, useMemo, useRef, useState } from 'react';
 import { GridList, useDragAndDrop, type Key } from 'react-aria-components';
 import { useTranslation } from 'react-i18next';
 
@@ -6,9 +6,9 @@ import { useWorld } from '@/live/store';
 import type { ActionCall, AbilityView } from '@/live/types';
 import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
-import { inWords } from '@/ui/words';
+import { useMap } from '@/ui/use-map';
 
-import { callsOf, moved, newStep, nudged, setInput, type DraftStep } from './editing';
+import { addables, callsOf, moved, nameOfAction, newStep, nudged, setInput, type DraftStep } from './editing';
 import { EditorRow } from './editor-row';
 import css from './plan-editor.module.css';
 
@@ -37,6 +37,8 @@ export function PlanEditor({ robot, steps: initial, saveLabel, onSave, onCancel 
   const [removed, setRemoved] = useState<Removed | null>(null);
   const catalogue = useWorld((world) => world.robots[robot]?.catalogue ?? NO_ACTIONS);
 
+  const choices = useMemo(() => addables(catalogue), [catalogue]);
+  const places = usePlaces(robot);
   const box = useInView();
 
   const { dragAndDropHooks } = useDragAndDrop({
@@ -58,9 +60,9 @@ export function PlanEditor({ robot, steps: initial, saveLabel, onSave, onCancel 
   };
 
   const add = (name: string) => {
-    const action = catalogue.find((one) => one.name === name);
-    if (!action) return;
-    setSteps([...steps, newStep(action, `added-${added}`)]);
+    const wanted = choices.find((one) => one.action.name === name);
+    if (!wanted) return;
+    setSteps([...steps, newStep(wanted, `added-${added}`)]);
     setAdded(added + 1);
   };
 
@@ -88,6 +90,8 @@ export function PlanEditor({ robot, steps: initial, saveLabel, onSave, onCancel 
           <EditorRow
             key={step.id}
             step={step}
+            catalogue={catalogue}
+            places={places}
             isFirst={index === 0}
             isLast={index === steps.length - 1}
             onMove={(by) => setSteps(nudged(steps, step.id, by))}
@@ -101,7 +105,7 @@ export function PlanEditor({ robot, steps: initial, saveLabel, onSave, onCancel 
           label={t('addStep')}
           placeholder={t('addStepPlaceholder')}
           value={null}
-          options={catalogue.map((action) => ({ id: action.name, label: inWords(action.name) }))}
+          options={choices.map(({ action }) => ({ id: action.name, label: nameOfAction(action) }))}
           onChange={add}
         />
       )}
@@ -121,6 +125,19 @@ export function PlanEditor({ robot, steps: initial, saveLabel, onSave, onCancel 
       </div>
     </div>
   );
+}
+
+/** What robots can be sent to, by the names that mean just one. */
+function usePlaces(robot: string): readonly string[] {
+  const mapName = useWorld((world) => world.views[robot]?.map_name ?? '');
+  const shown = useMap(robot, mapName, 0);
+  const map = shown.state === 'ready' ? shown.map : null;
+  return useMemo(() => {
+    const things = map?.objects ?? [];
+    const called = (name: string) => things.filter((one) => one.description === name).length;
+    const names = things.map((one) => (one.description && called(one.description) === 1 ? one.description : one.id));
+    return [...new Set([...names, ...(map?.rooms ?? []).map((room) => room.name)])].sort((a, b) => a.localeCompare(b));
+  }, [map]);
 }
 
 /** Brings what was opened to the top of where it stands, and takes the keyboard there. */

@@ -138,7 +138,7 @@ class Decisions:
         if edited:
             calls, problems = rebased(decision.steps, proposal.steps)
             if problems:
-                self._plans.refuse_plan(plan, problems, decided=True)
+                self._plans.refuse_edit(plan, decision.steps, problems)
                 return
         calls = self._plans.accept(plan, calls or (), correcting=repairs is not None, decided=edited)
         if calls is None:
@@ -198,7 +198,7 @@ class Decisions:
             calls = complete_calls(calls, catalogue, known=len(known))
             problems = check_calls(calls, catalogue, before=known, known=known, path="steps")
         if problems:
-            self._plans.refuse_plan(plan, problems, decided=True)
+            self._plans.refuse_edit(plan, decision.steps, problems)
         else:
             self._plans.send(plan, plan.edit(calls))
 

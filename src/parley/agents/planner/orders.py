@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from typing import Final
 
 from parley.agents.planner.effects import Effect
 from parley.agents.planner.plan import TargetPlan
+from parley.errors import Problem
+from parley.gate.cards import for_next, labels_of
 from parley.gate.judge import Finding
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
-from parley.sentences import sentence
+from parley.messages.status import ActionInfo
+from parley.sentences import Sentence, sentence
 
 __all__ = [
     "BEGUN_ALREADY", "LEFT", "MOST_WAITING", "NOTHING_DONE", "NOT_AS_SHOWN", "PLAN_CHANGED",
     "STEP_OVER", "TOO_MANY_WAIT",
-    "WAITING", "WAITING_HELPLESS", "bare", "forgetting", "in_order", "no_robot", "of_memory", "of_plans",
-    "reasons", "take_repair",
+    "WAITING", "WAITING_HELPLESS", "bare", "forgetting", "impossible", "in_order",
+    "no_robot", "of_memory", "of_plans", "reasons", "take_repair",
 ]  # fmt: skip
 
 _HELP: Final = sentence("Say “try again”, “skip it” or “cancel everything”, or give me another order.")
@@ -25,6 +29,10 @@ WAITING_HELPLESS: Final = sentence(
 )
 NOTHING_DONE: Final = "I worked out a plan that I cannot carry out, so I did nothing."
 LEFT: Final = "I cannot carry out these steps, so I left everything as it is."
+_WHY: Final = {
+    "missing_input": "something that it needs is not given",
+    "unknown_action": "I cannot do such a thing",
+}
 NOT_AS_SHOWN: Final = sentence("That is not what waits for your yes by now, so I have not begun.")
 BEGUN_ALREADY: Final = sentence(
     "Somebody had said yes already, so I have stopped. Say “carry on” when I should go on."
@@ -41,6 +49,29 @@ PLAN_CHANGED: Final = "The plan has changed in the meantime, so I left it as it 
 def no_robot(name: str, known: str) -> str:
     """That nobody is called `name`, and who is there."""
     return sentence("There is no robot called {name}. {known}", name=name, known=known)
+
+
+def impossible(
+    calls: Sequence[ActionCall], catalogue: Sequence[ActionInfo], problems: Sequence[Problem]
+) -> Sentence:
+    """Which step of an edit cannot be carried out, and why; of several the first."""
+    steps = [int(found[1]) for item in problems if (found := re.match(r"steps\[(\d+)\]", item.path))]
+    at = min(steps, default=len(calls))
+    if at >= len(calls):
+        return sentence(LEFT)
+    code = next(item.code for item in problems if item.path.startswith(f"steps[{at}]"))
+    hidden = for_next(calls, catalogue)
+    shown = at + 1 if hidden[at] else at  # a search stands as the step that it is made for
+    step = labels_of(calls, catalogue)[shown]
+    label = next((info.label for info in catalogue if info.name == calls[shown].name), "")
+    if code == "missing_input" and label:
+        step = sentence("{step}", step=re.sub(r"\{[^{}]*\}", "…", label))
+    return sentence(
+        "I cannot do step {number}, “{step}”: {why}. I left everything as it is.",
+        number=at + 1 - sum(hidden[:at]),
+        step=step,
+        why=sentence(_WHY.get(code, "it does not fit there")),
+    )
 
 
 def reasons(findings: Iterable[Finding]) -> list[str]:

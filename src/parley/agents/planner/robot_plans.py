@@ -228,17 +228,17 @@ class RobotPlans:
         problems = check_calls(put, catalogue, path="steps" if decided else "queue")
         if not problems:
             return calls
-        text = orders.WAITING_HELPLESS if correcting and not decided else ""
-        self.refuse_plan(plan, problems, decided=decided, text=text)
+        if decided:
+            self.refuse_edit(plan, put, problems)
+        else:
+            self.refuse(topics.CHAT_ACTION.name, plan.target, problems)
+            self.say(plan.target, orders.WAITING_HELPLESS if correcting else orders.NOTHING_DONE, "error")
         return None
 
-    def refuse_plan(
-        self, plan: TargetPlan, problems: Sequence[Problem], *, decided: bool, text: str = ""
-    ) -> None:
-        """Tell everybody that steps cannot be carried out."""
-        topic = topics.PLAN_DECISION if decided else topics.CHAT_ACTION
-        self.refuse(topic.name, plan.target, problems)
-        self.say(plan.target, text or (orders.LEFT if decided else orders.NOTHING_DONE), "error")
+    def refuse_edit(self, plan: TargetPlan, calls: Sequence[ActionCall], problems: Sequence[Problem]) -> None:
+        """Tell everybody which of the steps that a person put together cannot be carried out."""
+        self.refuse(topics.PLAN_DECISION.name, plan.target, problems)
+        self.say(plan.target, orders.impossible(calls, self.catalogue(plan.target), problems), "error")
 
     def forbid(self, target: str, judgement: Judgement) -> list[str]:
         """Tell everybody what the rules forbid; in words."""
