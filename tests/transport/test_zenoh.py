@@ -13,11 +13,12 @@ import pytest
 import structlog
 import zenoh
 
+from parley.config import NetworkSettings
 from parley.errors import TransportTimeoutError, TypeMismatchError, UnavailableError
 from parley.messages.ros import ChatRequest, String
 from parley.messages.topics import Topic
 from parley.transport.base import Endpoint
-from parley.transport.zenoh import Network, ZenohTransport
+from parley.transport.zenoh import ZenohTransport
 from parley.transport.zenoh.definitions import Definitions
 from parley.transport.zenoh.graph import Graph
 from parley.transport.zenoh.keys import Attachment, Node, all_tokens, key
@@ -35,11 +36,11 @@ def at() -> str:
 
 
 def listening(at: str, *, role: Role = "peer") -> ZenohTransport:
-    return ZenohTransport(Network(listen=(at,), interface="", role=role))
+    return ZenohTransport(NetworkSettings(listen=(at,), interface="", role=role))
 
 
 def connecting(at: str, *, role: Role = "peer") -> ZenohTransport:
-    return ZenohTransport(Network(listen=(), connect=(at,), interface="", role=role))
+    return ZenohTransport(NetworkSettings(listen=(), connect=(at,), interface="", role=role))
 
 
 @asynccontextmanager
@@ -166,7 +167,7 @@ async def test_a_network_that_cannot_be_reached_is_said_at_once(at: str) -> None
 
 
 async def test_processes_of_another_domain_are_not_seen(at: str) -> None:
-    other = ZenohTransport(Network(domain=1, listen=(), connect=(at,), interface=""))
+    other = ZenohTransport(NetworkSettings(domain=1, listen=(), connect=(at,), interface=""))
     heard: list[String] = []
     async with listening(at) as here, other, connecting(at) as same:
         await here.subscribe(TALK, heard.append)
