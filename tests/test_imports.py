@@ -20,7 +20,9 @@ LAYERS: tuple[frozenset[str], ...] = (
     frozenset({"sim"}),
     frozenset({"gate", "language", "robots", "engine", "actions"}),
     frozenset({"agents", "web"}),
-    frozenset({"terminal", "site", "system", "api", "demos", "bench", "evaluation", "doctor", "cli"}),
+    frozenset(
+        {"terminal", "network", "site", "system", "api", "demos", "bench", "evaluation", "doctor", "cli"}
+    ),
 )
 """Rooms by height, lowest first; rooms of one height may know each other."""
 

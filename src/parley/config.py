@@ -22,7 +22,7 @@ from parley.sentences import SpokenLanguage
 
 __all__ = [
     "ApprovalPolicy", "CallSettings", "EmailSettings", "EmbeddingSettings", "FeedSettings", "ModelPrice",
-    "ModelSettings", "SystemConfig", "language_name",
+    "ModelSettings", "NetworkSettings", "SystemConfig", "language_name",
 ]  # fmt: skip
 
 ApprovalPolicy = Literal["run_at_once", "ask_when_risky", "ask_first"]
@@ -184,6 +184,25 @@ class FeedSettings(BaseModel):
     """Wider pictures are made smaller."""
 
 
+class NetworkSettings(BaseModel):
+    """Into which network of Zenoh a process goes. As it stands: the processes of this machine."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    domain: int = Field(default=0, ge=0, le=232)
+    """Processes of other domains are not seen (ROS: `ROS_DOMAIN_ID`)."""
+    listen: tuple[str, ...] = ("tcp/127.0.0.1:0",)
+    """Where others may connect: `tcp/0.0.0.0:7447`."""
+    connect: tuple[str, ...] = ()
+    """Whom to connect to: `tcp/192.168.1.5:7447`."""
+    interface: str = "127.0.0.1"
+    """Where to look for others: an address of this machine, a network of it, `auto`; empty: nowhere."""
+    role: Literal["peer", "client", "router"] = "peer"
+    """A `client` reaches others through a `router` only."""
+    silence_s: float = Field(default=4.0, ge=0.5, le=60)
+    """Whoever gives no sign of life for so long is taken for gone."""
+
+
 class SystemConfig(BaseModel, TextFile):
     """What may be chosen about a system; the defaults are the thesis's and the design's.
 
@@ -223,6 +242,8 @@ class SystemConfig(BaseModel, TextFile):
     """Who is called when a robot waits for a yes or an answer; a later one, when nobody came."""
     approval_of: dict[str, ApprovalPolicy] = Field(default_factory=dict)
     """Robots for which that is otherwise, by name."""
+    network: NetworkSettings | None = None
+    """Where the parts of the system hear each other; None: within one process."""
     speed: float | None = Field(default=1.0, gt=0)
     """Simulated time per wall time; None: as fast as the machine can."""
     seed: int = 0

@@ -65,12 +65,12 @@ from parley.messages.chat import ActionCall
 from parley.messages.principal import Principal
 from parley.messages.status import ActionInfo, Rejection, RejectionProblem
 from parley.messages.wire import to_string
+from parley.network import transport_of
 from parley.robots.base import Robot
 from parley.robots.fleet import Fleet, OwnFleet
 from parley.robots.own import RobotBase
 from parley.robots.run_robot import RunRobot
 from parley.transport.base import Publisher, Transport
-from parley.transport.local import LocalTransport
 from parley.umrf.action import ActionSpec, RunHandle
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.discovery import ActionFolder, LiveActions, installed_actions
@@ -128,7 +128,7 @@ class System:
         occupancy: The map the robots drive by; None: surveyed from the world as it is.
         objects: The object map; None: from the world file.
         language: The language engine; None: as configured.
-        transport: None: everything in this process.
+        transport: None: as configured.
         actions: What the robots can do.
     """
 
@@ -145,7 +145,7 @@ class System:
         actions: Sequence[ActionSpec] = BUILTIN_ACTIONS,
     ) -> None:
         self.config = config
-        self.transport: Transport = transport or LocalTransport()
+        self.transport: Transport = transport or transport_of(config)
         self.usage = Usage()
         """What language models took, if any is asked."""
         self.language: Language = language or build_language(

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, cast
 
-from parley.transport import zenoh as zenoh_backend
+from parley.config import NetworkSettings
 from parley.transport.base import Server, Subscription, Transport
 from parley.transport.local import LocalTransport
 from parley.transport.zenoh import ZenohTransport
@@ -69,9 +69,9 @@ async def zenoh() -> AsyncIterator[Network]:
     """Two sessions, each as of a process of its own, that find each other at a port of this machine."""
     at = (f"tcp/127.0.0.1:{free_port()}",)
     async with (
-        ZenohTransport(zenoh_backend.Network(listen=at, interface=""), definitions=DEFINITIONS) as here,
+        ZenohTransport(NetworkSettings(listen=at, interface=""), definitions=DEFINITIONS) as here,
         ZenohTransport(
-            zenoh_backend.Network(listen=(), connect=at, interface=""), definitions=DEFINITIONS
+            NetworkSettings(listen=(), connect=at, interface=""), definitions=DEFINITIONS
         ) as there,
     ):
         yield Network(cast(Transport, Settled(here, there)), cast(Transport, Settled(there, here)))

@@ -5,9 +5,10 @@ from __future__ import annotations
 import asyncio
 import sys
 
+from parley.config import NetworkSettings
 from parley.messages.ros import ChatRequest, ChatResponse, String
 from parley.messages.topics import QoS, Service, Topic
-from parley.transport.zenoh import Network, ZenohTransport
+from parley.transport.zenoh import ZenohTransport
 
 ECHO = Service("peer/echo", ChatRequest, ChatResponse, "nl_interface_msgs/srv/Chat")
 HELLO = Topic("peer/hello", String, "std_msgs/msg/String", QoS(latched=True, depth=1))
@@ -18,7 +19,7 @@ STOP = Topic("peer/stop", String, "std_msgs/msg/String", QoS(keep_all=True))
 async def main(how: str, at: str) -> None:
     """Listen or connect, say hello, and echo; or connect and `drop`: end without closing."""
     listen, connect = ((at,), ()) if how == "listen" else ((), (at,))
-    transport = ZenohTransport(Network(listen=listen, connect=connect, interface="", silence_s=1.0))
+    transport = ZenohTransport(NetworkSettings(listen=listen, connect=connect, interface="", silence_s=1.0))
     await transport.__aenter__()
     heard: list[str] = []
     enough = asyncio.Event()

@@ -13,14 +13,15 @@ import pytest
 import structlog
 import zenoh
 
+from parley.config import NetworkSettings
 from parley.errors import TransportTimeoutError, TypeMismatchError, UnavailableError
 from parley.messages.ros import ChatRequest, String
 from parley.messages.topics import Topic
 from parley.transport.base import Endpoint
-from parley.transport.zenoh import Network, ZenohTransport
+from parley.transport.zenoh import ZenohTransport
 from parley.transport.zenoh.definitions import Definitions
 from parley.transport.zenoh.graph import Graph
-from parley.transport.zenoh.keys import Attachment, Node, key
+from parley.transport.zenoh.keys import Attachment, Node, all_tokens, key
 from parley.transport.zenoh.lane import BYTES_AHEAD, Lane, Outbox
 from tests.transport.backends import free_port, until
 from tests.transport.peer import ECHO, HELLO, STOP, TALK
@@ -35,11 +36,11 @@ def at() -> str:
 
 
 def listening(at: str, *, role: Role = "peer") -> ZenohTransport:
-    return ZenohTransport(Network(listen=(at,), interface="", role=role))
+    return ZenohTransport(NetworkSettings(listen=(at,), interface="", role=role))
 
 
 def connecting(at: str, *, role: Role = "peer") -> ZenohTransport:
-    return ZenohTransport(Network(listen=(), connect=(at,), interface="", role=role))
+    return ZenohTransport(NetworkSettings(listen=(), connect=(at,), interface="", role=role))
 
 
 @asynccontextmanager
@@ -87,7 +88,7 @@ async def test_a_peer_that_is_frozen_is_gone_and_comes_back_when_it_thaws(at: st
         with pytest.raises(UnavailableError, match="went away"):
             await hanging
         process.send_signal(signal.SIGCONT)
-        await until(lambda: hears(here, TALK))
+        await until(lambda: hears(here, TALK) and sees(here, ECHO.name))
         talker.publish(String("again"))
 
         answer = ""
@@ -166,7 +167,7 @@ async def test_a_network_that_cannot_be_reached_is_said_at_once(at: str) -> None
 
 
 async def test_processes_of_another_domain_are_not_seen(at: str) -> None:
-    other = ZenohTransport(Network(domain=1, listen=(), connect=(at,), interface=""))
+    other = ZenohTransport(NetworkSettings(domain=1, listen=(), connect=(at,), interface=""))
     heard: list[String] = []
     async with listening(at) as here, other, connecting(at) as same:
         await here.subscribe(TALK, heard.append)
@@ -181,9 +182,23 @@ async def test_processes_of_another_domain_are_not_seen(at: str) -> None:
 # Others on the network
 
 
+class Stranger:
+    """Somebody who speaks the network's language, but not ours; it sees who of us is there."""
+
+    def __init__(self, session: zenoh.Session) -> None:
+        self.session = session
+        self.seen: list[str] = []
+        see: zenoh.handlers.Callback[zenoh.Sample] = zenoh.handlers.Callback(
+            lambda sample: self.seen.append(str(sample.key_expr)), indirect=False
+        )
+        session.liveliness().declare_subscriber(all_tokens(0), see, history=True)
+
+    async def sees(self, name: str) -> None:
+        await until(lambda: any(f"/%{name.replace('/', '%')}/" in token for token in self.seen))
+
+
 @pytest.fixture
-def stranger(at: str) -> Iterator[zenoh.Session]:
-    """Somebody who speaks the network's language, but not ours."""
+def stranger(at: str) -> Iterator[Stranger]:
     config = zenoh.Config()
     for name, value in (
         ("listen/endpoints", f'["{at}"]'),
@@ -192,7 +207,7 @@ def stranger(at: str) -> Iterator[zenoh.Session]:
     ):
         config.insert_json5(name, value)
     with zenoh.open(config) as session:
-        yield session
+        yield Stranger(session)
 
 
 TALK_KEY = key(0, TALK.name, TALK.ros_type, Definitions().hash(TALK.ros_type))
@@ -200,44 +215,44 @@ ECHO_KEY = key(0, ECHO.name, ECHO.ros_type, Definitions().hash(ECHO.ros_type))
 X = bytes.fromhex("00010000 02000000 7800")
 
 
-async def test_noise_is_told_and_not_handed_on_and_the_next_message_is(
-    at: str, stranger: zenoh.Session
-) -> None:
+async def test_noise_is_told_and_not_handed_on_and_the_next_message_is(at: str, stranger: Stranger) -> None:
     heard: list[String] = []
+    talker = stranger.session.declare_publisher(TALK_KEY)
     with structlog.testing.capture_logs() as logged:
         async with connecting(at) as here:
             await here.subscribe(TALK, heard.append)
+            await stranger.sees(TALK.name)
             for data, attachment in ((b"noise", b""), (X, b"no ROS"), (X, None)):
-                stranger.put(TALK_KEY, data, attachment=attachment)
+                talker.put(data, attachment=attachment)
             await until(lambda: len(heard) == 2)
     assert heard == [String("x")] * 2
     assert [line["topic"] for line in logged if line["event"] == "a message cannot be read"] == [TALK.name]
 
 
-async def test_messages_that_were_lost_on_the_way_are_counted(at: str, stranger: zenoh.Session) -> None:
+async def test_messages_that_were_lost_on_the_way_are_counted(at: str, stranger: Stranger) -> None:
     heard: list[String] = []
+    talker = stranger.session.declare_publisher(TALK_KEY)
     async with connecting(at) as here:
         subscription = await here.subscribe(TALK, heard.append)
+        await stranger.sees(TALK.name)
         for sender, numbers in ((b"a", (7, 8, 12)), (b"b", (1, 3))):
             for number in numbers:
-                attachment = Attachment(number, 0, sender * 16).to_bytes()
-                stranger.put(TALK_KEY, X, attachment=attachment)
+                talker.put(X, attachment=Attachment(number, 0, sender * 16).to_bytes())
         await until(lambda: len(heard) == 5)
         assert subscription.dropped == 3 + 1
 
 
 async def test_a_call_that_is_no_call_is_refused_and_the_next_is_answered(
-    at: str, stranger: zenoh.Session
+    at: str, stranger: Stranger
 ) -> None:
     async def echo(request: ChatRequest) -> object:
         return request
 
     async with connecting(at) as here:
         await here.serve(ECHO, echo)  # type: ignore[arg-type]
-        querier = stranger.declare_querier(ECHO_KEY)
-        await until(lambda: querier.matching_status)
+        await stranger.sees(ECHO.name)
         for payload in (b"noise", X):  # then a handler that answers with something else
-            replies = await asyncio.to_thread(lambda: list(stranger.get(ECHO_KEY, payload=payload)))  # noqa: B023
+            replies = await asyncio.to_thread(lambda: list(stranger.session.get(ECHO_KEY, payload=payload)))  # noqa: B023
             assert [reply.ok for reply in replies] == [None]
             assert replies[0].err is not None
 

@@ -14,6 +14,7 @@ from parley.bench.engine import Figures, chain, fan_out, run_chain, run_graphs, 
 from parley.bench.language import measure_language
 from parley.bench.memory import VECTOR_LENGTH, measure_memory
 from parley.bench.story import measure_demo
+from parley.bench.transport import measure_transport
 from parley.cli.on_loop import on_loop
 from parley.cli.output import emit_json, quiet_logs
 from parley.extras import needs
@@ -151,6 +152,24 @@ def display(
             "frames_per_core_s": round(figures.frames_per_core_s),
         }
         _show(facts | _latency("", figures.latency_ms), json)
+
+
+@app.command("transport")
+def transport(
+    times: Annotated[int, typer.Option(min=1, help="How many messages of each size.")] = 1000,
+    json: JsonOption = False,
+) -> None:
+    """Messages within this process, and over Zenoh to another one and back."""
+    quiet_logs()
+    for figures in on_loop(measure_transport(times)):
+        facts = {
+            "case": figures.backend,
+            "size": figures.size,
+            "messages_per_s": round(figures.messages_per_s),
+            "lost": figures.lost,
+        }
+        _show(facts | _latency("one_way_", figures.latency_ms), json)
+    _show_machine(json)
 
 
 @app.command("language")

@@ -18,6 +18,7 @@ from zenoh import ext
 from zenoh.handlers import Callback
 
 from parley.clock import Clock, WallClock
+from parley.config import NetworkSettings
 from parley.errors import TransportError, TransportTimeoutError, TypeMismatchError, UnavailableError
 from parley.messages.actions import Action
 from parley.messages.topics import QoS, Service, Topic
@@ -29,7 +30,7 @@ from parley.transport.zenoh.ends import ZenohPublisher, ZenohServer, ZenohSubscr
 from parley.transport.zenoh.graph import Graph
 from parley.transport.zenoh.keys import Attachment, Node, all_tokens, gid_of, key
 from parley.transport.zenoh.lane import Lane
-from parley.transport.zenoh.session import Network, config
+from parley.transport.zenoh.session import config
 
 __all__ = ["ZenohTransport"]
 
@@ -71,13 +72,13 @@ class ZenohTransport:
 
     def __init__(
         self,
-        network: Network | None = None,
+        network: NetworkSettings | None = None,
         *,
         node: str = "parley",
         definitions: tuple[Path, ...] = (),
         clock: Clock | None = None,
     ) -> None:
-        self._network, self._node_name = network or Network(), node
+        self._network, self._node_name = network or NetworkSettings(), node
         self._clock: Clock = clock or WallClock()
         self._definitions = Definitions(*definitions)
         self._codecs: dict[tuple[type[Any], str], Codec[Any]] = {}

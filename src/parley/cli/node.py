@@ -1,0 +1,89 @@
+"""`parley node`: one part of a system in a process of its own, on the network that the settings name."""
+
+from __future__ import annotations
+
+import signal
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from parley.cli.on_loop import on_loop
+from parley.cli.output import quiet_logs
+from parley.cli.web import PORT, page_settings, serve_until_interrupted
+from parley.config import SystemConfig
+from parley.errors import ConfigError
+from parley.extras import needs
+from parley.network import transport_of
+from parley.terminal import TerminalClient
+
+__all__ = ["app"]
+
+app = typer.Typer(help="One part of a system, in a process of its own.", no_args_is_help=True)
+
+NetworkOption = Annotated[
+    Path, typer.Option("--config", help="File with the settings; network is among them.")
+]
+
+
+@app.command("terminal")
+def terminal(
+    config: NetworkOption,
+    lang: Annotated[str, typer.Option(help="Language of the terminal: en or et.")] = "en",
+) -> None:
+    """Chat with the robots of another process or machine."""
+    quiet_logs()
+    on_loop(_chat(_networked(config), lang))
+
+
+@app.command("web")
+def web(
+    config: NetworkOption,
+    data: Annotated[Path | None, typer.Option(help="Folder for accounts and conversations.")] = None,
+    no_open: Annotated[bool, typer.Option("--no-open", help="Do not open the page in a browser.")] = False,
+    port: Annotated[
+        int | None, typer.Option(min=0, max=65535, help=f"Port of the page; default: {PORT}, or a free one.")
+    ] = None,
+    lan: Annotated[
+        bool, typer.Option("--lan", help="Let phones in this network in: HTTPS, with a code to sign in.")
+    ] = False,
+    password_file: Annotated[
+        Path | None, typer.Option(help="File with a password to sign in with, here too.")
+    ] = None,
+    verbose: Annotated[bool, typer.Option("--verbose", help="Show the log.")] = False,
+) -> None:
+    """Serve the page for the robots of another process or machine."""
+    quiet_logs(verbose)
+    settings = _networked(config)
+    page = page_settings(
+        port=port, lan=lan, password_file=password_file, pair_as="operator",
+        certificate=None, key=None, origins=(), without="",
+    )  # fmt: skip
+    page |= {"data_dir": data}
+    on_loop(_serve(settings, page, port_is_wish=port is None, opens=not no_open))
+
+
+def _networked(file: Path) -> SystemConfig:
+    settings = SystemConfig.load(file)
+    if settings.network is None:
+        raise ConfigError(f"{file} names no network; write there what all parts share, e.g. network: {{}}")
+    return settings
+
+
+async def _chat(settings: SystemConfig, lang: str) -> None:
+    async with transport_of(settings, node="parley_terminal") as transport:
+        broken_off = await TerminalClient(transport, lang=lang).run()
+    if broken_off:
+        raise typer.Exit(128 + signal.SIGINT)
+
+
+async def _serve(settings: SystemConfig, page: dict[str, object], *, port_is_wish: bool, opens: bool) -> None:
+    with needs("web"):
+        from parley.web.config import WebConfig
+        from parley.web.server import WebServer
+
+    async with (
+        transport_of(settings, node="parley_web") as transport,
+        WebServer(transport, WebConfig.of(settings, **page), port_is_wish=port_is_wish) as server,
+    ):
+        await serve_until_interrupted(server, opens=opens)

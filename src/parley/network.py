@@ -1,0 +1,27 @@
+"""Where the parts of a system hear each other: in this process, or on a network."""
+
+from __future__ import annotations
+
+from parley.config import SystemConfig
+from parley.extras import needs
+from parley.transport.base import Transport
+from parley.transport.local import LocalTransport
+
+__all__ = ["transport_of"]
+
+
+def transport_of(config: SystemConfig, *, node: str = "parley") -> Transport:
+    """The transport that these settings name.
+
+    Args:
+        config: The settings.
+        node: How this process is called in a network.
+
+    Raises:
+        MissingExtraError: What the network needs is not installed.
+    """
+    if config.network is None:
+        return LocalTransport()
+    with needs("zenoh"):
+        from parley.transport.zenoh import ZenohTransport
+    return ZenohTransport(config.network, node=node)

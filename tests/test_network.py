@@ -1,0 +1,73 @@
+"""A system whose parts are in several processes: robots in one, the operator in another."""
+
+from __future__ import annotations
+
+import asyncio
+import signal
+import sys
+from pathlib import Path
+
+from typer.testing import CliRunner
+
+from parley.cli import command_line
+from parley.clock import WallClock
+from parley.config import NetworkSettings, SystemConfig
+from parley.demos.observer import Observer
+from parley.errors import ConfigError
+from parley.messages import topics
+from parley.messages.principal import person
+from parley.messages.status import StopCommand
+from parley.messages.wire import to_string
+from parley.network import transport_of
+from parley.transport.local import LocalTransport
+from tests.transport.backends import free_port, until
+
+
+def test_without_a_network_everything_is_in_one_process() -> None:
+    assert isinstance(transport_of(SystemConfig()), LocalTransport)
+
+
+def test_a_part_of_its_own_needs_a_network(tmp_path: Path) -> None:
+    (tmp_path / "parley.yaml").write_text("language: builtin\n", encoding="utf-8")
+    for part in ("terminal", "web"):
+        result = CliRunner().invoke(
+            command_line("node"), ["node", part, "--config", str(tmp_path / "parley.yaml")]
+        )
+        assert isinstance(result.exception, ConfigError)
+        assert "names no network" in str(result.exception)
+
+
+async def test_robots_of_another_process_are_talked_to_and_stopped(tmp_path: Path) -> None:
+    at = f"tcp/127.0.0.1:{free_port()}"
+    settings = tmp_path / "parley.yaml"
+    settings.write_text(f"network: {{listen: [{at}], interface: ''}}\n", encoding="utf-8")
+    robots = await asyncio.create_subprocess_exec(
+        sys.executable, "-m", "parley", "demo", "nursing-home", "--no-open", "--port", "0",
+        "--config", str(settings), "--data", str(tmp_path / "data"), stdout=asyncio.subprocess.DEVNULL,
+    )  # fmt: skip
+    network = NetworkSettings(listen=(), connect=(at,), interface="")
+    try:
+        async with (
+            transport_of(SystemConfig(network=network)) as transport,
+            Observer(transport, WallClock()) as operator,
+        ):
+            await operator.until(lambda: bool(operator.robots))
+            (robot,) = operator.robots
+            operator.say("go to the kitchen", robot)
+            await operator.until(lambda: operator.state(robot) == "running")
+            stop = StopCommand(id="now", by=person())
+            transport.publisher(topics.STOP).publish(to_string(stop))
+
+            def told() -> list[str]:
+                return [report.state for report in operator.stop_reports if report.id == "now"]
+
+            await operator.until(lambda: "at_rest" in told())
+            assert told()[0] == "received"
+            await operator.until(lambda: operator.state(robot) == "paused")
+
+            robots.kill()
+            await until(lambda: all("umrf_graph_start" not in end.name for end in transport.endpoints()))
+    finally:
+        if robots.returncode is None:
+            robots.send_signal(signal.SIGKILL)
+        await robots.wait()
