@@ -16,6 +16,7 @@ from parley.language.builtin.engine import BuiltinLanguage
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage, Detection
 from parley.umrf.action import Outcome
+from parley.world.object_map import MapObject, ObjectMap
 from tests.actions.room import Room, room
 from tests.memory.photos import opened
 from tests.sim.worlds import box
@@ -226,6 +227,18 @@ async def test_what_is_moved_is_found_where_it_is_now() -> None:
                 await inspect(here.context, "suspicious bags")
             (found,) = (item for item in here.view.objects.objects if item.class_name == "bag")
             assert math.dist((found.x_m, found.y_m), (x, y)) < 0.3
+
+
+async def test_what_only_looks_ahead_says_that_it_does_not_see_all_of_a_place() -> None:
+    bay = MapObject("bay", "bay", 2.0, 1.0, "area", width_m=1.0, height_m=2.4)
+    async with room(None, BuiltinLanguage()) as here:
+        here.view = replace(here.view, base=ObjectMap((bay,)))
+        await inspect(here.context, "whether the bay is clear")
+        assert here.person.told[-1].endswith("I cannot see all of it from here.")
+        here.run.result_asked = True
+        with pytest.raises(ActionFailure) as caught:  # what depends on it is not done by guessing
+            await inspect(here.context, "whether the bay is clear")
+        assert caught.value.code is FailureCode.ATTENTION
 
 
 async def test_nothing_amiss_is_no_failure_and_leaves_nothing_behind() -> None:

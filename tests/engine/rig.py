@@ -59,6 +59,13 @@ class DummyRobot:
     async def speak(self, text: str) -> None:
         self.told.append(f"speak {text}")
 
+    @property
+    def sight(self) -> None:
+        return None
+
+    async def look(self, aside_rad: float) -> CameraImage:
+        return await self.image()
+
     async def image(self) -> CameraImage:
         raise ActionFailure(FailureCode.NOT_CAPABLE, "no camera")
 

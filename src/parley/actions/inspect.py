@@ -8,9 +8,11 @@ from dataclasses import dataclass, replace
 from typing import Any, Final
 
 from parley.actions.context import ActionContext
+from parley.actions.looking import view
 from parley.errors import ActionFailure, FailureCode, LanguageError
 from parley.language.base import InspectionReport
 from parley.robots.base import CameraImage, Detection
+from parley.sentences import sentence, together
 from parley.umrf.action import Outcome, action
 from parley.world.object_map import ObjectMap
 from parley.world.whereabouts import Footprint, called, nearest
@@ -50,7 +52,8 @@ async def inspect(ctx: ActionContext, inspect: str) -> Inspection | Outcome:
     Args:
         inspect: What to look for or to look at.
     """
-    image = await ctx.robot.image()
+    seen = await view(ctx.robot, inspect, ctx.world.objects)
+    image = seen.image
     ctx.display.show(FEED, image, {"request": inspect})
     told = await _told(ctx, inspect)
     try:
@@ -59,6 +62,11 @@ async def inspect(ctx: ActionContext, inspect: str) -> Inspection | Outcome:
         raise ActionFailure(
             FailureCode.UNAVAILABLE, "I took the picture, but I cannot tell what is in it just now."
         ) from error
+    if (
+        not (seen.is_whole or report.things) and report.found is not None
+    ):  # it may stand where nothing is seen
+        told_whole = together(report.text, sentence("I cannot see all of it from here."))
+        report = replace(report, text=told_whole, found=None if ctx.run.result_asked else report.found)
     ctx.operator.tell(report.text)
     found = await _kept(ctx, report, image)
     if report.rules:

@@ -106,7 +106,7 @@ class ScriptedLanguage:
         self, image: CameraImage, request: str, rules: Sequence[str] = (), known: ObjectMap | None = None
     ) -> InspectionReport:
         """See `Language.inspect`."""
-        answer: InspectionReport = await self._answer("inspect", image, request, rules)
+        answer: InspectionReport = await self._answer("inspect", image, request, rules, known)
         return answer
 
     async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:

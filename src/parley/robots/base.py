@@ -24,6 +24,7 @@ __all__ = [
     "NavigationControl",
     "Robot",
     "SeenPerson",
+    "Sight",
     "Velocity",
 ]
 
@@ -97,6 +98,16 @@ class CameraImage:
 
 
 @dataclass(frozen=True, slots=True)
+class Sight:
+    """How much of what is around a robot its camera takes in."""
+
+    fov_rad: float
+    """Horizontal opening angle of one picture."""
+    aside_rad: float = 0.0
+    """How far to either side pictures can be taken without driving: a head that turns, or more cameras."""
+
+
+@dataclass(frozen=True, slots=True)
 class SeenPerson:
     """Somebody whom a robot sees."""
 
@@ -157,6 +168,19 @@ class Robot(Protocol):
 
         Raises:
             ActionFailure: `hardware` if the camera gives none, `not_capable` if there is no camera.
+        """
+        ...
+
+    @property
+    def sight(self) -> Sight | None:
+        """How much its camera takes in; None: it does not say, or has none."""
+        ...
+
+    async def look(self, aside_rad: float) -> CameraImage:
+        """Take a picture in a direction, counter-clockwise from straight ahead, as far as `sight` reaches.
+
+        Raises:
+            ActionFailure: See `image`.
         """
         ...
 

@@ -24,6 +24,7 @@ from parley.robots.base import (
     LaserScan,
     NavigationControl,
     SeenPerson,
+    Sight,
     Velocity,
 )
 from parley.sentences import sentence
@@ -139,6 +140,15 @@ class RobotBase(ABC):
     def battery(self) -> float | None:
         """How full it is, 0 to 1; here it cannot tell."""
         return None
+
+    @property
+    def sight(self) -> Sight | None:
+        """How much its camera takes in. Override it with `look` where it can look aside."""
+        return None
+
+    async def look(self, aside_rad: float) -> CameraImage:
+        """Take a picture in a direction, counter-clockwise from straight ahead."""
+        return await self.image()
 
     def people(self) -> tuple[SeenPerson, ...]:
         """Whom it sees now and where, the nearest first; here nobody. It goes with `sees_people`."""

@@ -6,7 +6,7 @@ import asyncio
 from dataclasses import replace
 
 from parley.errors import ActionFailure, FailureCode
-from parley.robots.base import CameraImage, LaserScan, NavigationControl, Robot, SeenPerson, Velocity
+from parley.robots.base import CameraImage, LaserScan, NavigationControl, Robot, SeenPerson, Sight, Velocity
 from parley.umrf.motion import Motion
 from parley.world.geometry import Pose2D
 
@@ -58,6 +58,15 @@ class RunRobot:
     async def image(self) -> CameraImage:
         """See `Robot.image`."""
         return await self._robot.image()
+
+    @property
+    def sight(self) -> Sight | None:
+        """See `Robot.sight`."""
+        return self._robot.sight
+
+    async def look(self, aside_rad: float) -> CameraImage:
+        """See `Robot.look`."""
+        return await self._robot.look(aside_rad)
 
     def people(self) -> tuple[SeenPerson, ...]:
         """See `Robot.people`."""

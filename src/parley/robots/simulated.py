@@ -17,6 +17,7 @@ from parley.robots.base import (
     LaserScan,
     NavigationControl,
     SeenPerson,
+    Sight,
     Velocity,
 )
 from parley.robots.navigator import Navigator
@@ -92,14 +93,24 @@ class SimulatedRobot:
         """See `Robot.drive`; does nothing while halted."""
         self._simulator.command(self.name, velocity.linear_mps, velocity.angular_radps)
 
+    @property
+    def sight(self) -> Sight | None:
+        """See `Robot.sight`."""
+        camera = self._model.camera
+        return Sight(camera.fov_rad, camera.aside_rad) if camera is not None else None
+
     async def image(self) -> CameraImage:
         """See `Robot.image`."""
+        return await self.look(0.0)
+
+    async def look(self, aside_rad: float) -> CameraImage:
+        """See `Robot.look`."""
         if self._model.camera is None:
             raise ActionFailure(FailureCode.NOT_CAPABLE, f"{self.name} has no camera.")
         if not self._simulator.camera_works(self.name):
             raise ActionFailure(FailureCode.HARDWARE, "My camera gives no picture.")
         with self._simulator.clock.hold():
-            photograph = await self._simulator.photograph(self.name)
+            photograph = await self._simulator.photograph(self.name, aside_rad)
         height, width, _ = photograph.frame.rgb.shape
         return CameraImage(
             width,

@@ -26,6 +26,8 @@ class CameraModel(_Part):
     """Above the floor."""
     mount_forward_m: float = 0.08
     """In front of the robot's centre."""
+    aside_rad: float = Field(default=0.0, ge=0, le=math.pi)
+    """How far pictures can be taken to either side: it turns on a neck, or others like it look there."""
     pitch_rad: float = Field(default=0.12, gt=-1.5, lt=1.5)
     """Upwards is positive."""
 
@@ -73,7 +75,9 @@ PRESETS: Mapping[str, RobotModel] = MappingProxyType(
             max_turn_radps=1.4,
             endurance_s=5.0 * 3600,
             colour="#d9dde2",
-            camera=CameraModel(mount_height_m=1.1, mount_forward_m=0.12, pitch_rad=-0.42, fov_rad=1.1),
+            camera=CameraModel(
+                mount_height_m=1.1, mount_forward_m=0.12, pitch_rad=-0.5, fov_rad=1.2, aside_rad=1.24
+            ),
             lidar=LidarModel(range_m=12.0, mount_height_m=0.2),
         ),
     }

@@ -247,8 +247,8 @@ class Simulator:
                 self._world, self._model, self._data, self._names, base.body_id, self.pose(robot), camera
             )
 
-    async def photograph(self, robot: str) -> Photograph:
-        """Take a picture of this moment with a robot's camera.
+    async def photograph(self, robot: str, aside_rad: float = 0.0) -> Photograph:
+        """Take a picture of this moment with a robot's camera, turned aside as far as it can be.
 
         Raises:
             RuntimeError: The simulator is not open, or the camera is missing or broken.
@@ -257,10 +257,11 @@ class Simulator:
         camera = base.entry.model.camera
         if camera is None or not self.camera_works(robot):
             raise RuntimeError(f"{robot} has no working camera")
+        aside = max(-camera.aside_rad, min(camera.aside_rad, aside_rad))
         # Taken now, with the model: the world may change before the picture is drawn.
         stamp_s, names, body_id = self._clock.now_s(), self._names, base.body_id
         frame = await self._draw(
-            lambda artist, qpos: artist.photograph(qpos, body_id, _pose(qpos[base.slots]), camera)
+            lambda artist, qpos: artist.photograph(qpos, body_id, _turned(qpos[base.slots], aside), camera)
         )
         return Photograph(frame, sightings(frame, names), stamp_s)
 
@@ -451,5 +452,5 @@ class Simulator:
         return base.guard(self.pose(name), self.velocity(name), base.command)
 
 
-def _pose(joints: NDArray[np.float64]) -> Pose2D:
-    return Pose2D(float(joints[0]), float(joints[1]), wrap_angle(float(joints[2])))
+def _turned(joints: NDArray[np.float64], aside_rad: float) -> Pose2D:
+    return Pose2D(float(joints[0]), float(joints[1]), wrap_angle(float(joints[2]) + aside_rad))

@@ -3,14 +3,27 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Final, Literal
 
-from parley.world.object_map import MapArea, MapObject
+from parley.world.geometry import Pose2D, wrap_angle
+from parley.world.object_map import MapArea, MapObject, ObjectMap
 
-__all__ = ["NEAR_M", "Footprint", "Standing", "called", "nearest", "standing"]
+__all__ = [
+    "NEAR_M",
+    "Footprint",
+    "Place",
+    "Standing",
+    "bearings",
+    "called",
+    "named_place",
+    "nearest",
+    "standing",
+]
 
+Place = MapObject | MapArea
 Standing = Literal["in", "edge", "outside"]
 
 NEAR_M: Final = 2.0
@@ -37,7 +50,7 @@ def called(name: str) -> str:
     return name if name[:1].isupper() else f"the {name}"
 
 
-def standing(thing: Footprint, place: MapObject | MapArea) -> Standing:
+def standing(thing: Footprint, place: Place) -> Standing:
     """Whether something stands in a place, on its edge, or outside.
 
     Examples:
@@ -76,3 +89,38 @@ def nearest(x_m: float, y_m: float, objects: Iterable[MapObject]) -> MapObject |
     ]
     gap_m, _, found = min(gaps, key=lambda one: one[:2], default=(math.inf, math.inf, None))
     return found if gap_m <= NEAR_M else None
+
+
+def named_place(text: str, known: ObjectMap) -> Place | None:
+    """The thing or room of the map whose name stands in a text; of several the longest name, then the last.
+
+    Examples:
+        >>> bay, hall = MapObject("b", "bay 1", 0.0, 0.0), MapObject("h", "hall", 0.0, 0.0)
+        >>> named_place("whether Bay 1 is clear", ObjectMap((bay, hall))) is bay
+        True
+    """
+    low = f" {re.sub(r'[^a-z0-9]+', ' ', text.lower())} "
+    found: list[tuple[int, int, Place]] = []
+    places: list[Place] = [*known.objects, *known.areas]
+    for place in places:
+        names = (place.name,) if isinstance(place, MapArea) else (place.description, *place.aliases)
+        for name in names:
+            at = low.rfind(f" {re.sub(r'[^a-z0-9]+', ' ', name.lower()).strip()} ")
+            if at >= 0 and name.strip():
+                found.append((len(name), at, place))
+    return max(found, key=lambda one: one[:2])[2] if found else None
+
+
+def bearings(pose: Pose2D, place: Place) -> tuple[float, float]:
+    """Between which directions a place lies, from its right end to its left one; 0 is straight ahead."""
+    if isinstance(place, MapArea):
+        corners = list(place.corners)
+    else:
+        wide, high = place.width_m / 2, place.height_m / 2
+        corners = [(place.x_m + dx * wide, place.y_m + dy * high) for dx in (-1, 1) for dy in (-1, 1)]
+    middle = pose.bearing_to(
+        sum(x for x, _ in corners) / len(corners), sum(y for _, y in corners) / len(corners)
+    )
+    aside = [wrap_angle(pose.bearing_to(x, y) - middle) for x, y in corners]
+    ahead = wrap_angle(middle - pose.yaw_rad)
+    return ahead + min(aside), ahead + max(aside)

@@ -222,3 +222,44 @@ async def test_a_room_of_the_map_is_a_goal_by_its_whole_name(message: str, goal:
     answer = await ENGINE.interpret(replace(situation(message), rooms=rooms))
     steps = read_steps(answer.queue, situation(message).catalogue)
     assert [step.arguments for step in steps if step.verb == "go"] == ([(goal,)] if goal else [])
+
+
+SHARED = tuple(replace(item, aliases=("crate store",)) for item in OBJECTS if "crate" in item.description)
+
+
+@pytest.mark.parametrize(
+    "message", ["check if the parcel is in the crate store", "check if the crate store is clear"]
+)
+async def test_a_name_that_several_places_have_is_asked_about_before_one_is_looked_at(message: str) -> None:
+    asked = await ENGINE.interpret(replace(situation(message), objects=SHARED))
+    assert asked.queue == ()
+    assert asked.choices == ("red crate", "blue crate", "green crate")
+
+
+async def test_a_place_is_looked_through_for_something_else() -> None:
+    assert await plan("check gate 2 for leaks") == ["go gate 2", "look gate 2 for leaks"]
+    assert await plan("inspect gates 1 and 2 for strange parcels") == [
+        step for name in ("gate 1", "gate 2") for step in (f"go {name}", f"look {name} for strange parcels")
+    ]  # fmt: skip
+
+
+async def test_what_was_listed_is_meant_by_its_name_later() -> None:
+    told = await ENGINE.interpret(
+        situation("There are three places of interest: gate 1, the pump, and gate 3.")
+    )
+    (kept,) = (command.arguments for command in told.system_cmd if command.command == "add_memory")
+    assert told.queue == ()
+    memory = MemoryEntry(name=str(kept["name"]), data=str(kept["data"]), way="told")
+    later = replace(situation("inspect each place of interest"), memory=(memory,))
+    assert [step.input_parameters["target"].value for step in (await ENGINE.interpret(later)).queue[::3]] == [
+        "gate 1", "pump", "gate 3",
+    ]  # fmt: skip
+    before = await ENGINE.interpret(situation("inspect each place of interest"))
+    assert before.queue == ()
+
+
+async def test_a_list_with_something_else_in_it_is_no_such_fact() -> None:
+    other = await ENGINE.interpret(
+        situation("There are two places of interest: gate 1, and open the window.")
+    )
+    assert not any("interest" in str(command.arguments) for command in other.system_cmd)

@@ -186,3 +186,32 @@ async def test_a_choice_that_is_tapped_is_that_choice() -> None:
     for tapped in (choices := ("It is on you", "I can't", "not the north gate", "the north gate")):
         reading = await ENGINE.read_reply("Which one?", tapped, choices)
         assert (reading.kind, reading.choice) == ("choice", tapped)
+
+
+@pytest.mark.parametrize(
+    ("reply", "frames"),
+    [
+        ("go to the blue crate and look at it more closely", 2),
+        ("go there and inspect it further", 2),
+        ("have a closer look at it", 1),
+        ("carry on", 0),
+        ("go on", 0),
+        ("look again", 1),
+        ("try again", 1),
+    ],
+)
+async def test_after_an_alarm_an_order_about_what_was_found_is_done_at_once(reply: str, frames: int) -> None:
+    alarm = ErrorSituation(
+        "I can see a blue crate.", STEP, FailureCode.ATTENTION, {"found": ["blue crate"]}, reply=reply,
+        objects=THINGS, catalogue=CATALOGUE,
+    )  # fmt: skip
+    answer = await ENGINE.resolve(alarm)
+    assert (answer.success, len(answer.queue)) == (True, frames)
+    found = {target(step) for step in answer.queue}
+    assert found == {"blue crate"} or "again" in reply or not frames
+
+
+async def test_after_an_alarm_an_order_about_something_else_leaves_it_open() -> None:
+    alarm = failure("go to the office", FailureCode.ATTENTION)
+    answer = await ENGINE.resolve(replace(alarm, details={"found": ["blue crate"]}, catalogue=CATALOGUE))
+    assert answer.success is None

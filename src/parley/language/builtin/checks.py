@@ -217,10 +217,9 @@ def _place(builder: Ways, words: Sequence[str]) -> Value | Ask | None:
             if word not in builder.lexicon.classes["determiners"]
         ]
         if before and before[-1] in _WHERE:
-            return Value(item.description, with_article(item.description), (item,))
+            return _one_called(words, start, item, builder.situation.objects)
     if named:
-        item = named[0][1]
-        return Value(item.description, with_article(item.description), (item,))
+        return _one_called(words, *named[0], builder.situation.objects)
     if builder.at and {"there", "here", "in"} & {*words[1:]}:
         return None
     place = _remembered(builder, words)
@@ -232,6 +231,24 @@ def _place(builder: Ways, words: Sequence[str]) -> Value | Ask | None:
     if builder.last_thing is not None and words[0] in builder.lexicon.classes["pronouns"]:
         return builder.last_thing if builder.last_thing.things or builder.last_thing.place else None
     return None
+
+
+def _one_called(
+    words: Sequence[str], start: int, item: MapObject, objects: Sequence[MapObject]
+) -> Value | Ask:
+    """The thing that is named there; a question if others have the same name."""
+    said = [stems([word]) for word in words[start:]]
+    flat = tuple(one[0] for one in said if one)
+
+    def length(other: MapObject) -> int:
+        names = (stems(name.split()) for name in (other.description, *other.aliases))
+        return max((len(name) for name in names if flat[: len(name)] == name), default=0)
+
+    same = [other for other in objects if length(other) == length(item)]
+    if len(same) < 2:
+        return Value(item.description, with_article(item.description), (item,))
+    called = tuple(dict.fromkeys(other.description for other in same))[:6]
+    return Ask(f"Which one do you mean: {' or '.join(with_article(name) for name in called)}?", called)
 
 
 def _named(words: Sequence[str], objects: Sequence[MapObject]) -> list[tuple[int, MapObject]]:

@@ -286,7 +286,7 @@ def _seen(situation: Situation, about: str) -> str:
     if not looks:
         return f"I have not looked at anything with my camera yet, so I have seen nothing to tell. {here}"
     last = looks[-1]
-    lead = "Yes: " if last.ending == "done" else "No: " if last.ending == "no" else ""
+    lead = "No: " if last.ending == "no" else ""  # that a look ended well does not say that it found anything
     told = last.told[-1] if last.told else f"I saw {listed(last.seen)}."
     return f"{lead}{told} That was {_at(last.unix_ms)}, when I was to {step_words(last.label)}."
 
@@ -299,6 +299,7 @@ def _seen_labels(situation: Situation) -> tuple[Deed | None, list[str]]:
     known = {
         name.lower()
         for item in situation.objects
+        if not item.found
         for name in (item.description, item.class_name, *item.aliases)
     }
     return looks[-1], [label for label in dict.fromkeys(looks[-1].seen) if label.lower() not in known]
