@@ -158,6 +158,18 @@ async def test_a_side_of_a_place_is_that_place_and_it_is_said() -> None:
     assert "“side of the desk” into account" in (await ENGINE.interpret(given)).message_response
 
 
+@pytest.mark.parametrize(("message", "asked"), [("the desk", "Shall I"), ("box", "Which one")])
+def test_what_is_only_named_is_offered_or_asked_about(message: str, asked: str) -> None:
+    made = ENGINE.decide(situation(message, objects=(*THINGS, thing("green box", 20))))
+    assert isinstance(made, Ask) and made.question.startswith(asked)
+    assert [deed.arguments for deed in made.offer] == ([{"place": "desk"}] if asked == "Shall I" else [])
+    assert made.choices == (() if made.offer else ("red box", "green box"))
+
+
+def test_it_is_what_the_message_begins_to_tell_of() -> None:
+    assert calls(situation("the pump makes a strange noise, have a look at it")) == [("LOOK", ["pump"])]
+
+
 def test_a_thing_that_no_map_holds_is_looked_for_where_it_is_said_to_be() -> None:
     catalogue = tuple(info_of(spec) for spec in BUILTIN_ACTIONS)
     rack = MapObject("rack_1", "rack", 5.0, 1.0, aliases=("stand with the cups",))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from parley.language.base import Turn
-from parley.language.builtin.decision import Ask, Control, Do
+from parley.language.builtin.decision import Answer, Ask, Control, Do
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.dialogue.state import Asked, Dialogue
 from tests.language.builtin.worlds import situation
@@ -55,3 +55,10 @@ def test_a_name_that_sounds_like_danger_calls_nobody() -> None:
     for message in ("Spark, go to the desk", "Spark, stop!"):
         made = ENGINE.decide(situation(message, robot="Spark", robots=("Spark",)))
         assert isinstance(made, Do | Control), message
+
+
+def test_that_all_is_well_may_be_said_twice() -> None:
+    alarm = ENGINE.decide(situation("Kim fell at the desk"))
+    assert isinstance(alarm, Ask) and alarm.alarms
+    past = (Turn("operator", "Kim fell at the desk"), Turn("assistant", alarm.question))
+    assert isinstance(ENGINE.decide(situation("she is fine, it was a false alarm", history=past)), Answer)

@@ -173,6 +173,21 @@ async def test_a_fact_beside_an_order_that_is_asked_about_is_kept_in_mind(
     assert all(fact.rpartition(" ")[2] in found for fact in kept)
 
 
+async def test_each_of_two_facts_is_kept_with_whom_it_is_about_and_none_of_whom_nobody_named() -> None:
+    both = await ENGINE.interpret(situation("Kim is in the office and Ada is at the desk"))
+    assert stored(both) == ["Kim is in the office", "Ada is at the desk"]
+    assert stored(await ENGINE.interpret(situation("here they are, on your tray"))) == []
+
+
+async def test_what_was_forgotten_is_not_told_from_the_conversation_either() -> None:
+    past = (
+        Turn("operator", "remember that the pump was mended"),
+        Turn("assistant", "I forget this: the pump was mended."),
+    )
+    asked = situation("what do you know about the pump?", history=past)
+    assert "have not told me anything" in (await ENGINE.interpret(asked)).message_response
+
+
 async def test_a_stop_is_for_whom_it_calls() -> None:
     for message, called in (("Bo, stop!", ("Bo",)), ("everybody stop", ("Ada", "Bo")), ("stop", ("Ada",))):
         answer = await ENGINE.interpret(situation(message, robots=("Ada", "Bo")))

@@ -22,6 +22,7 @@ from parley.errors import LanguageError
 from parley.gate.orders import UNSURE_OF_ALL, Admitted, Heard, admit
 from parley.language.base import Language, Situation
 from parley.language.completing import bound_to_steps, completed_answer
+from parley.language.dialogue.facts import kept_in_mind
 from parley.memory.sayings import for_oneself
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
@@ -239,7 +240,7 @@ class Answering:
             return texts.UNSURE
         asked = next((ruling for ruling in rulings if ruling.outcome == "asked"), None)
         if asked is not None:
-            return wish_of(asked.lines, asked.why)
+            return together(kept_in_mind(reply), wish_of(asked.lines, asked.why))
         if rulings and all(ruling.outcome == "refused" for ruling in rulings):
             return together(texts.NOT_DONE, *admitted.refused)
         if admitted.resumes and not order.queue:

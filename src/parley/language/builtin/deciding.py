@@ -68,8 +68,8 @@ def decide(
     if isinstance(made, Ask) and (promise := policy.promised(situation, lexicon, again)) is not None:
         return promise
     made = policy.afterwards(made, situation, whole, tokens, lexicon)
-    amiss = isinstance(made, Ask) and not made.offer and not situation.queue and is_report(situation.message)
-    made = _seen_to(made, situation, tokens, skills, lexicon) if amiss else made
+    if isinstance(made, Ask) and not (made.offer or made.choices or situation.queue or situation.question):
+        made = _offered(made, situation, tokens, skills, lexicon)
     if isinstance(made, Ask) and "told" in whole.acts and not made.alarms:
         return replace(made, told=policy.no_facts(_beside(situation.message, again), situation, beside=True))
     return made
@@ -88,20 +88,27 @@ def _beside(message: str, again: policy.Again) -> tuple[Told, ...]:
     return tuple(fact for one in made if isinstance(one, Remember) for fact in one.told if not fact.is_rule)
 
 
-def _seen_to(
-    made: Decision, situation: Situation, tokens: Sequence[Token], skills: Skills, lexicon: Lexicon
-) -> Decision:
-    """What is amiss is not remembered: to have a look is offered, where it is told at what."""
-    places = [name.things[0] for name in named(tokens, situation.objects, lexicon) if len(name.things) == 1]
+def _offered(
+    made: Ask, situation: Situation, tokens: Sequence[Token], skills: Skills, lexicon: Lexicon
+) -> Ask:
+    """What is amiss is not remembered, and what is only named is not driven to: to go there is offered."""
+    names = named(tokens, situation.objects, lexicon)
+    amiss = is_report(situation.message)
+    if not (amiss or policy.only_names(situation, tokens, names, lexicon)):
+        return made
+    if not amiss and len(names[0].things) > 1:
+        which = tuple(thing.description for thing in names[0].things)
+        asked = " or ".join(f"the {name}" for name in which)
+        return Ask(f"Which one do you mean: {asked}?", which)
+    places = [name.things[0] for name in names if len(name.things) == 1]
     if not places:
         return made
     words = tuple(places[-1].description.lower().split())
-    about = Filler("T", 0, len(words), len(words) - 1, words)
-    deeds = Builder(situation, skills, lexicon, ()).deeds(Wish("LOOK", 0, "look", (about,), 1.0, "agrees"))
-    what = f"the {places[-1].description}"
-    return (
-        made if isinstance(deeds, Ask) else Ask(f"Shall I go to {what} and have a look?", offer=tuple(deeds))
-    )
+    frame, role = ("LOOK", "T") if amiss else ("GO", "G")
+    about = Filler(role, 0, len(words), len(words) - 1, words)
+    deeds = Builder(situation, skills, lexicon, ()).deeds(Wish(frame, 0, "", (about,), 1.0, "agrees"))
+    what = f"the {places[-1].description}{' and have a look' if amiss else ''}"
+    return made if isinstance(deeds, Ask) else Ask(f"Shall I go to {what}?", offer=tuple(deeds))
 
 
 def _alone(
@@ -129,7 +136,8 @@ def _alone(
     now = [MemoryEntry(name=fact.name, data=fact.text) for fact in told]
     known = places((*situation.memory, *now), reader, lexicon)
     builder = Builder(situation, skills, lexicon, known)
-    builder.recall(*policy.spoken_of(situation, known, lexicon))
+    thing, person = policy.spoken_of(situation, known, lexicon)
+    builder.recall(thing or policy.subject_of(situation, parts, lexicon), person)
     deeds = Planner(builder).planned(nodes)
     if isinstance(deeds, Ask):
         return builder.doubts[0] if builder.doubts else deeds

@@ -45,6 +45,8 @@ def told_of(reading: Reading, message: str, starts: Sequence[int], lexicon: Lexi
         if wish.frame != "BELOC" or wish.act != "told" or thing is None or not wish.has("LG"):
             continue
         name = _name(thing, lexicon)
+        if {*name} & (lexicon.classes["pronouns"] | lexicon.classes["persons"] | {"they"}):
+            continue  # nobody knows later who or what was meant
         start = min(starts[min([wish.start, *(filler.start for filler in wish.fillers)])], len(message))
         last = max(filler.end for filler in wish.fillers)
         text = message[start : starts[last]] if last < len(starts) else message[start:]

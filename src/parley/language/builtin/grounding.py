@@ -200,8 +200,9 @@ class Grounder:
         return None
 
     def _beside(self, filler: Filler, things: Sequence[MapObject]) -> MapObject | None:
-        """Of several things the one beside what was spoken of before the message: "the chair next to it"."""
-        it = self.before
+        """Of several things the one beside what was spoken of before: "the chair next to it"."""
+        last = self.last_thing.things if self.last_thing is not None else ()
+        it = last[0] if len(last) == 1 else self.before
         if it is None or it in things or not {*filler.words} & self.lexicon.classes["pronouns"]:
             return None
         return beside(it, things)

@@ -252,7 +252,10 @@ class Planner:
                         return waited
                     before.append(waited)
                 case "except":
-                    self.builder.left_out = tuple(word for word in words if word not in ("please", "out"))
+                    words = tuple(word for word in words if word not in ("please", "out"))
+                    kept = tuple(wish for wish in wishes if not self.builder.names_same(words, [wish]))
+                    self.builder.left_out = () if 0 < len(kept) < len(wishes) else words
+                    wishes = kept or wishes
                 case "not":
                     if not self._excluded(limit, wishes):
                         return Ask(

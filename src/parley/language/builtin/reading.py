@@ -96,6 +96,9 @@ def _merged(parse: Parse) -> list[Span]:
         nearest = max((n for n, verb in enumerate(parse.verbs) if verb.start < span.start), default=None)
         if span.owner is not None and nearest is not None and span.owner < nearest and span.role in "TGSRHN":
             span = replace(span, owner=nearest)
+        told = next((n for n, verb in enumerate(parse.verbs) if verb.start == span.end), None)
+        if span.role == "T" and told is not None and parse.verbs[told].frame == "BELOC":
+            span = replace(span, owner=told)  # "... and Kim is at the desk": of whom that is told
         later = nearest is not None and span.owner is not None and span.owner > nearest
         if later and nearest is not None and _apart(parse, span, nearest):
             span = replace(span, owner=nearest)

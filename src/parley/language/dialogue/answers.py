@@ -391,9 +391,10 @@ def _told_about(situation: Situation, about: str) -> str:
     ]
     if facts:
         return f"I remember: {'; '.join(entry.data.rstrip('.') for entry in facts[-3:])}."
+    forgot = [at for at, turn in enumerate(situation.history) if turn.content.startswith("I forget this")]
     said = [
         t.content
-        for t in situation.history
+        for t in situation.history[(forgot or [-1])[-1] + 1 :]
         if t.role == "operator" and wanted & _stems(t.content) and not t.content.rstrip().endswith("?")
     ]
     return (

@@ -17,12 +17,13 @@ from parley.language.dialogue.places import rooms
 __all__ = ["NO_ALARM", "emergency", "is_emergency"]
 
 _ALARMED: Final = "That sounds like an emergency"
-NO_ALARM: Final = re.compile(
-    r"(?:(?:no|it was|it is|it's|that was|that's|just|only|a|an|the|sorry|it) )*(?:false alarm|"
+_FALSE: Final = (
+    r"(?:(?:(?:no|it was|it is|it's|that was|that's|just|only|a|an|the|sorry|it) )*(?:false alarm|"
     r"joke|mistake|test|drill|no emergency|nothing(?: happened| is wrong| at all)?|over|out)|"
     r"(?:all|everything|everybody|everyone|it|we|he|she|they)(?: is|'s| are|'re)? "
-    r"(?:ok|okay|good|fine|clear|well|safe|all right|alright|under control)"
+    r"(?:ok|okay|good|fine|clear|well|safe|all right|alright|under control))"
 )
+NO_ALARM: Final = re.compile(rf"{_FALSE}(?: (?:and |so |now )?{_FALSE})*(?: now| again)?")
 _PIECE: Final = re.compile(
     r"\w.*?(?=[.,;:!?]+(?:\s|$)|\s+(?:and\s+)?(?:so|please|can you|could you|would you)\b|$)",
     re.IGNORECASE | re.DOTALL,

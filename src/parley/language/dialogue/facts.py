@@ -18,14 +18,14 @@ from parley.language.stop_words import calls_to_stop, has_stop_word
 from parley.messages.memory import MemoryEntry
 
 __all__ = [
-    "IN_MIND", "forgotten", "in_mind", "is_report", "is_wish", "moved_fact", "other_fact", "taken_back",
-    "worth_keeping",
+    "IN_MIND", "forgotten", "in_mind", "is_report", "is_wish", "kept_in_mind", "moved_fact", "other_fact",
+    "taken_back", "worth_keeping",
 ]  # fmt: skip
 
 _PRONOUNS: Final = frozenset({"he", "she", "they", "it", "this", "that", "these", "those", "they're", "it's"})
 _POINTING: Final = frozenset({"this", "that", "these", "those"})
 _FIRST: Final = frozenset(
-    {"i", "i'm", "you", "we", "you're", "we're", "let", "let's", "who", "what", "there"}
+    {"i", "i'm", "you", "we", "you're", "we're", "let", "let's", "who", "what", "there", "here"}
 )
 _AT: Final = {"to": "at", "into": "in", "onto": "on", "towards": "at", "over": "at"}
 _WHERE: Final = frozenset(
@@ -92,6 +92,12 @@ def is_report(text: str) -> bool:
 
 IN_MIND: Final = "For now I keep in mind that"
 """How the robot says what is not remembered yet."""
+_KEPT: Final = re.compile(rf"{IN_MIND} (.+?)\.(?:\s|$)")
+
+
+def kept_in_mind(reply: str) -> str:
+    """What of a reply says what is kept in mind."""
+    return " ".join(found[0].strip() for found in _KEPT.finditer(reply))
 
 
 def worth_keeping(situation: Situation, bare: str, *, beside: bool = False) -> bool:

@@ -14,6 +14,7 @@ from parley.language.builtin.lexicon import Lexicon, lemmas
 from parley.language.builtin.own import is_promised
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.reply import said as words_for
+from parley.language.builtin.structure import Part
 from parley.language.builtin.tokens import Token, tokenize
 from parley.language.dialogue.answers import answer, differences, listed
 from parley.language.dialogue.changes import (
@@ -35,7 +36,7 @@ from parley.language.dialogue.facts import (
 )
 from parley.language.dialogue.following import followed
 from parley.language.dialogue.later import PROMISE, due, put_off
-from parley.language.dialogue.mentions import named
+from parley.language.dialogue.mentions import Named, named
 from parley.language.dialogue.places import in_room, rooms
 from parley.language.dialogue.questions import plain, question_of
 from parley.language.dialogue.rearranging import rearranged
@@ -43,12 +44,13 @@ from parley.language.dialogue.replies import chosen, is_thinking, names_deed
 from parley.language.dialogue.speaker import Again, answered_place, told_place
 from parley.world.object_map import MapObject
 
-__all__ = ["Again", "afterwards", "beforehand", "no_facts", "promised", "spoken_of"]
+__all__ = ["Again", "afterwards", "beforehand", "no_facts", "only_names", "promised", "spoken_of"]
 
 
 _SOCIAL: Final = re.compile(
     r"(?:good (?:morning|day|evening|night|afternoon)|hello|hi|hey|bye|goodbye|see you(?: later)?|"
     r"thank(?:s| you)(?: \w+)*|"
+    r"(?:that (?:was|is)|that's) (?:nice|great|good|perfect|lovely|fine|quick|fast)|"
     r"cheers|well done|good (?:job|boy|robot|work)|nice|great|perfect|cool|wow|haha+.*|lol|sorry|"
     r"you(?: are|'re| r) .+)"
 )
@@ -107,7 +109,7 @@ def _chosen(situation: Situation, tokens: Sequence[Token], again: Again) -> Deci
     if choice is None or names_deed(words) or _orders(words, choice, asked.choices):
         return None
     made = again(asked.words, [name for name in asked.choices if name != choice])
-    return made if isinstance(made, Do | Edit) else None
+    return made if isinstance(made, Do | Edit) or (isinstance(made, Ask) and made.offer) else None
 
 
 def _orders(words: Sequence[str], choice: str, choices: Sequence[str]) -> bool:
@@ -282,7 +284,9 @@ def afterwards(
         return asked
     if isinstance(made, Ask | Answer) and _SOCIAL.fullmatch(bare):
         return Answer(
-            "You are welcome." if bare.startswith(("thank", "cheers")) else "Hello. What can I do for you?"
+            "You are welcome."
+            if bare.startswith(("thank", "cheers", "that"))
+            else "Hello. What can I do for you?"
         )
     if isinstance(made, Ask | Answer) and (fact := other_fact(situation, reading, bare)) is not None:
         return Remember((fact,))
@@ -347,6 +351,35 @@ def _edit(change: Change, situation: Situation, do: Do | None = None) -> Decisio
     return Edit(replace(change, kept=kept), do, proposal.id)
 
 
+def subject_of(situation: Situation, parts: Sequence[Part], lexicon: Lexicon) -> MapObject | None:
+    """The thing of the map with which a message begins to tell of something: "the pump leaks, look at it"."""
+    tokens = parts[0].parse.tokens if parts[0].clause.link == "main" else ()
+    name = next(iter(named(tokens, situation.objects, lexicon)), None)
+    begins = name is not None and name.start < _SUBJECT and parts[0].parse.acts[name.start] in _TELLING
+    return name.things[0] if name is not None and begins and len(name.things) == 1 else None
+
+
+_SUBJECT: Final = 2
+_TELLING: Final = frozenset({"told", "need", "alarm"})
+
+
+def only_names(
+    situation: Situation, tokens: Sequence[Token], names: Sequence[Named], lexicon: Lexicon
+) -> bool:
+    """Whether a message is nothing but one name: "the yard", "ok, then the yard please"."""
+    if len(names) != 1 or situation.message.rstrip().endswith("?") or situation.dialogue.proposal is not None:
+        return False
+    small = lexicon.classes["small"] | lexicon.classes["determiners"] | _LEADING_ON
+    called = {word for name in situation.robots for word in name.lower().split()}
+    rest = {token.low for at, token in enumerate(tokens) if not names[0].start <= at < names[0].end}
+    return all(word in small or word in called or not word[0].isalnum() for word in rest)
+
+
+_LEADING_ON: Final = frozenset(
+    {"and", "then", "now", "next", "also", "ok", "okay", "great", "good", "fine", "thanks", "to", "first"}
+)
+
+
 # -- what was spoken of -------------------------------------------------------------------------------
 
 
@@ -379,7 +412,8 @@ def _found(situation: Situation) -> MapObject | None:
 
 def _is_called(place: Place) -> bool:
     """Whether what is remembered to be somewhere has a name of its own, as people have."""
-    return place.thing.split(" ")[0].capitalize() in re.findall(r"\w+", place.memory.data)
+    words = place.thing.split(" ")
+    return words[0].capitalize() in re.findall(r"\w+", place.memory.data) and "'s" not in words
 
 
 def _thing_in(
