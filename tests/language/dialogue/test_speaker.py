@@ -87,3 +87,17 @@ async def test_me_is_where_the_one_who_speaks_said_they_are() -> None:
     made = await answer("go to the blue desk, then come back to me", memory=told, speaker="Kim")
     assert places(made) == ["blue desk", "gate"]
     assert places(await answer("come to me", memory=told, speaker="Ann")) == ["operator"]  # whoever finds Ann
+
+
+@pytest.mark.parametrize(
+    ("before", "things"),
+    [
+        ("there are the red desk and the gate", ["red desk", "gate"]),
+        ("I painted the gate", []),
+        ("we have a gate and a desk", []),
+    ],
+)
+async def test_them_are_several_things_or_asked_about(before: str, things: list[str]) -> None:
+    history = (Turn("operator", before), Turn("assistant", "All right."))
+    made = await answer("look at them", history)
+    assert places(made) == things, made.message_response

@@ -16,7 +16,7 @@ from parley.language.builtin.sets import Group, group
 from parley.language.builtin.skills import Skills
 from parley.language.builtin.spatial import beside, picked
 from parley.language.builtin.things import Mention, link, noun_phrase
-from parley.language.builtin.tokens import Token, point_of
+from parley.language.builtin.tokens import Token, point_of, tokenize
 from parley.language.builtin.wishes import Filler, Wish
 from parley.language.dialogue.mentions import named
 from parley.language.dialogue.places import distance_m, in_room
@@ -190,6 +190,8 @@ class Grounder:
             return (
                 Value(near.description, with_article(near.description), (near,)) if near else self.last_thing
             )
+        if mention.kind == "pronoun" and {*filler.words} <= _SEVERAL:
+            return self._those(filler)
         if mention.kind == "pronoun":
             person = mention.text in self.lexicon.classes["persons"]
             told = self.last_thing if self.last_thing is not None and self.last_thing.place else None
@@ -198,6 +200,20 @@ class Grounder:
         if small:
             return self.last_thing or Ask(f"Where is “{filler.text}”?")
         return None
+
+    def _those(self, filler: Filler) -> Value | Ask:
+        """What "them" means: several things of this message or the last one, or one that is many ("cups")."""
+        last = self.last_thing
+        if last is not None and (last.each or not last.things or last.said.endswith("s")):
+            return last
+        said = [turn.content for turn in self.situation.history if turn.role == "operator"][-1:]
+        before = [
+            one.things for text in said for one in named(tokenize(text), self.situation.objects, self.lexicon)
+        ]
+        things = tuple(dict.fromkeys(thing for found in before if len(found) == 1 for thing in found))
+        if len(things) > 1 and all(len(found) == 1 for found in before):
+            return self._several(Group(things))
+        return Ask(f"Which ones do you mean by “{filler.text}”?")
 
     def _beside(self, filler: Filler, things: Sequence[MapObject]) -> MapObject | None:
         """Of several things the one beside what was spoken of before: "the chair next to it"."""
@@ -405,5 +421,6 @@ def _at_point(filler: Filler) -> Value | None:
 _BESIDE = frozenset({"next", "near", "beside", "by", "behind", "opposite", "close"})
 _SHOWN = 3
 """So many things are named to whoever asked for one that nobody knows."""
+_SEVERAL = frozenset({"them", "these", "those", "they"})
 _BACK_TO = frozenset({"there", "it", "them", "these", "those", "they", "over"})
 """Words that mean what was spoken of last."""
