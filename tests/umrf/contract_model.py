@@ -229,12 +229,14 @@ class _Run:
         self.pausing = False
         if self.state == "P" or (self.state == "H" and continue_from):
             self.become("R")
+        still = [node for node in self.nodes.values() if node.state in "PQ"]
         for node in self.nodes.values():
             node.round_held = False
-            if node.state in "PQ":
-                self.go_on(node)
+        for node in still:
+            self.go_on(node)
         for inner in self.inner:
-            inner.resume()
+            if inner not in [node.inner for node in still]:  # once each, or an edge's pause would not last
+                inner.resume()
         held, self.held = self.held, []
         for node, result in held:
             if result == "again":

@@ -65,12 +65,6 @@ class Catalogue:
     def __iter__(self) -> Iterator[ActionSpec]:
         return iter(self._specs.values())
 
-    def __len__(self) -> int:
-        return len(self._specs)
-
-    def __contains__(self, name: str) -> bool:
-        return name in self._specs
-
     @property
     def graphs(self) -> tuple[Graph, ...]:
         """The indexed graphs."""

@@ -21,6 +21,7 @@ from parley.umrf.model import (
     DEFAULT_CONDITIONS,
     ENTRY,
     EXIT,
+    MAX_MESSAGES,
     NOTHING,
     ChildRelation,
     Graph,
@@ -34,7 +35,6 @@ from parley.umrf.model import (
 
 __all__ = ["Effect", "Flow", "FlowNode"]
 
-MAX_LOG_MESSAGES = 10
 _COMPARABLE = ("string", "number", "bool")
 """Types whose allowed values are compared; any list blocks the others (4.4)."""
 
@@ -85,7 +85,7 @@ class FlowNode:
     received: set[str] = field(default_factory=set)
     """Parents whose edge was seen at least once."""
     log: list[LogMessage] = field(default_factory=list)
-    """The newest, at most `MAX_LOG_MESSAGES`; threads add to it."""
+    """The newest, at most `MAX_MESSAGES`; threads add to it."""
     starved: bool = False
     """Whether it was to run (again) and lacked an input."""
     skipped: Result | None = None
@@ -165,7 +165,7 @@ class FlowNode:
     def note(self, text: str, unix_ms: int) -> None:
         """Add a log line."""
         self.log.append(LogMessage(unix_ms, text))
-        del self.log[:-MAX_LOG_MESSAGES]
+        del self.log[:-MAX_MESSAGES]
         self.touch()
 
     def drop_transferred(self) -> None:

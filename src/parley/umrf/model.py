@@ -20,6 +20,7 @@ __all__ = [
     "ENDED",
     "ENTRY",
     "EXIT",
+    "MAX_MESSAGES",
     "NOTHING",
     "ChildRelation",
     "Graph",
@@ -151,6 +152,10 @@ class ParentRelation:
     def response(self, result: Result) -> Response:
         """What to do when the parent ended with `result`."""
         return self.conditions.get(result, DEFAULT_CONDITIONS[result])
+
+
+MAX_MESSAGES: Final = 10
+"""So many log lines of a node are kept (3)."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,6 +12,7 @@ from parley.messages.pvf import SEPARATOR, Parameter, read_parameters
 from parley.messages.wire import load_json
 from parley.umrf.model import (
     DEFAULT_CONDITIONS,
+    MAX_MESSAGES,
     ChildRelation,
     Graph,
     GraphState,
@@ -29,7 +30,6 @@ __all__ = ["EXTRAS", "MAX_ACTIONS", "MAX_INSTANCE_ID", "Reader", "load_object"]
 MAX_ACTIONS: Final = 1000
 """How many actions a graph may have: reading and checking so many keeps the loop for some 30 ms."""
 MAX_INSTANCE_ID: Final = 65535
-MAX_MESSAGES: Final = 10
 MAX_RETRIES: Final = 100
 EXTRAS: Final = "parley"
 """The key of a node or a descriptor for what UMRF does not know; other engines ignore it."""
