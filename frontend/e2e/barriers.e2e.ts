@@ -93,10 +93,10 @@ describe.skipIf(!hasBrowser)('nobody meets a barrier', () => {
       await go(stage, page, 'plan');
       await findings.look('proposal', page.getByRole('button', { name: words('plan', 'approve_other').split(' {')[0] ?? '' }));
       await page.getByRole('button', { name: words('plan', 'change'), exact: true }).first().click();
-      const last = page.getByRole('textbox').last();
+      const last = page.getByRole('grid').getByRole('button', { name: words('plan', 'place') }).last();
       await last.focus();
       expect(await covered(last), 'what has the keyboard is in sight').toBe(false);
-      await last.evaluate((input) => input.scrollIntoView({ block: 'center' })); // not half behind the buttons
+      await last.evaluate((choice) => choice.scrollIntoView({ block: 'center' })); // not half behind the buttons
       await findings.look('changing it', page.getByText(words('plan', 'editHelp')));
       await go(stage, page, '');
       await findings.look('chat beside it');

@@ -74,10 +74,11 @@ describe.skipIf(!hasBrowser)('an operator who looks around', () => {
     await say(page, 'cancel everything');
   });
 
-  it('points at a thing on the map with a finger', async () => {
-    const page = await stage.open(sizes.tablet, '#/map');
+  it('points at a thing on the small map beside the chat with a finger', async () => {
+    const page = await stage.open(sizes.tablet);
     await page.getByRole('button', { name: 'List' }).tap();
     await page.getByRole('button', { name: 'Pick Bed', exact: true }).tap();
+    await page.getByText(/ m, about \d+ s$/).waitFor();
     await page.getByRole('button', { name: 'Mention' }).tap();
     expect(await page.getByRole('textbox', { name: /^Write to/ }).inputValue()).toBe('the bed');
   });

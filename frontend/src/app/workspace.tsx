@@ -21,7 +21,7 @@ export function Workspace({ layout }: { layout: Layout }) {
   // It stays when nothing is planned any more: no button moves away under a finger.
   const [hasPlan, setHasPlan] = useState(isPlanned);
   if (isPlanned && !hasPlan) setHasPlan(true);
-  if (layout === 'phone') return <Narrow hasDisplay={pages.includes('display')} />;
+  if (layout === 'phone') return <Narrow pages={pages} />;
   return (
     <div className={css.grid} data-layout={layout} data-plan={hasPlan}>
       <Area name="chat">
@@ -46,23 +46,26 @@ export function Workspace({ layout }: { layout: Layout }) {
   );
 }
 
-/** On a phone: the conversation, and pictures when wanted. */
-function Narrow({ hasDisplay }: { hasDisplay: boolean }) {
+const strips = ['display', 'map'] as const;
+
+/** On a phone: the conversation, and pictures or the map when wanted. */
+function Narrow({ pages }: { pages: readonly string[] }) {
   const { t } = useTranslation('menu');
-  const some = useWorld((world) => Object.keys(world.feeds).length > 0);
-  const [pictures, setPictures] = useState(false);
+  const hasFeeds = useWorld((world) => Object.keys(world.feeds).length > 0);
+  const [open, setOpen] = useState<(typeof strips)[number] | null>(null);
+  const offered = strips.filter((name) => pages.includes(name) && (name === 'map' || hasFeeds));
   return (
     <div className={css.phone}>
       <div className={css.strips}>
-        {some && hasDisplay && (
+        {offered.length > 0 && (
           <div className={css.pictures}>
-            <Button tone="quiet" icon={pictures ? 'up' : 'down'} aria-expanded={pictures} onPress={() => setPictures(!pictures)}>
-              {t('display')}
-            </Button>
-            {pictures && (
-              <Area name="strip">
-                <DisplayPanel />
-              </Area>
+            {offered.map((name) => (
+              <Button key={name} tone="quiet" icon={open === name ? 'up' : 'down'} aria-expanded={open === name} onPress={() => setOpen(open === name ? null : name)}>
+                {t(name)}
+              </Button>
+            ))}
+            {open && (
+              <Area name="strip">{open === 'map' ? <MapPanel /> : <DisplayPanel />}</Area>
             )}
           </div>
         )}

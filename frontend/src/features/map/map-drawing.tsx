@@ -5,6 +5,7 @@ import { cornersOf, outline, type Corner } from '@/ui/corners';
 
 import css from './map.module.css';
 import { nameOf, type Candidates, type Mark } from './marks';
+import type { Trails } from './use-trails';
 import type { Way as Trial } from './use-way';
 import { labelOf, LONG_NAMES_SCALE, middleOf, roomForLabels, toScreen, type Place, type Size, type Viewport } from './viewport';
 
@@ -22,6 +23,7 @@ interface Props {
   view: Viewport;
   size: Size;
   rovers: readonly Rover[];
+  trails: Trails;
   /** What is picked out. */
   marked: Mark | null;
   /** Ways that are not driven yet: to what is picked out, and what waits for a yes. */
@@ -42,7 +44,7 @@ const DOT_PX = 5;
 const ROOM_LETTER_PX = 9.5;
 
 /** The map as a picture; whoever cannot see it has the list. */
-export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, marked, trials, candidates, showScan, zones, drawn }: Props) {
+export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, trails, marked, trials, candidates, showScan, zones, drawn }: Props) {
   const { x: left, y: top } = toScreen(view, size, { x: 0, y: 0 });
   const { origin, resolution } = map;
   const turned = ((origin.yaw ?? 0) * 180) / Math.PI;
@@ -75,6 +77,9 @@ export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, ma
         ))}
         {zones.map((zone) => (
           <polygon key={zone.id} className={css.zone} data-kind={zone.kind} points={outline(cornersOf(zone)).join(' ')} />
+        ))}
+        {rovers.map(({ name, chosen }) => (
+          <polyline key={name} className={css.trail} data-chosen={chosen} points={pointsOf(trails[name] ?? [])} />
         ))}
         {drawn && <Drawn corners={drawn} dotM={DOT_PX / view.scale} />}
         {trials.map((trial, index) => trial.state === 'found' && <Tried key={index} points={trial.points} />)}

@@ -23,6 +23,7 @@ import { candidatesOf, type Mark } from './marks';
 import { areaOfMark, roomOf, type Area } from './areas';
 import { DrawBar } from './draw-bar';
 import { PlaceBar } from './place-bar';
+import { useTrails } from './use-trails';
 import { useProposedWay, useWayTo } from './use-way';
 
 const AGE_STEP_MS = 1000;
@@ -105,6 +106,7 @@ function Ready({ map, mapName, robot, listed, children }: ReadyProps) {
   const candidates = useMemo(() => candidatesOf(map, question), [map, question]);
   const trials = useMemo(() => [proposed, way], [proposed, way]);
   const rovers = useRovers(mapName, robot);
+  const trails = useTrails(mapName);
   const rules = useRules();
   const zones = useMemo(() => zonesOf(rules, mapName), [rules, mapName]);
   const nameFor = (room: string) => (room ? t('partOf', { room }) : t('anArea'));
@@ -115,7 +117,7 @@ function Ready({ map, mapName, robot, listed, children }: ReadyProps) {
   return (
     <div className={css.layout}>
       {children}
-      <MapStage map={map} rovers={rovers} zones={zones} marked={marked} trials={trials} candidates={candidates} onMark={setMarked} drawn={drawn} onDraw={onDraw} />
+      <MapStage map={map} rovers={rovers} trails={trails} zones={zones} marked={marked} trials={trials} candidates={candidates} onMark={setMarked} drawn={drawn} onDraw={onDraw} />
       {listed && <MapList map={map} rovers={rovers} onMark={setMarked} />}
       {area ? (
         <DrawBar area={area} mapName={mapName} rules={rules} onDone={() => setArea(null)} />

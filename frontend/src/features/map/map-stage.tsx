@@ -10,6 +10,7 @@ import { Icon, type IconName } from '@/ui/icon';
 
 import { MapDrawing, type Rover } from './map-drawing';
 import { markAt, type Candidates, type Mark } from './marks';
+import type { Trails } from './use-trails';
 import type { Way } from './use-way';
 import css from './map.module.css';
 import { useViewport } from './use-viewport';
@@ -18,6 +19,7 @@ import type { Place } from './viewport';
 interface Props {
   map: MapInfo;
   rovers: readonly Rover[];
+  trails: Trails;
   zones: readonly Rule[];
   marked: Mark | null;
   trials: readonly Way[];
@@ -32,7 +34,7 @@ const ZOOM_STEP = 1.4;
 const FINGER_PX = 14;
 
 /** The map to look at, move, zoom and point at. */
-export function MapStage({ map, rovers, zones, marked, trials, candidates, onMark, drawn, onDraw }: Props) {
+export function MapStage({ map, rovers, trails, zones, marked, trials, candidates, onMark, drawn, onDraw }: Props) {
   const { t } = useTranslation('map');
   const [follow, setFollow] = useState(false);
   const [showScan, setShowScan] = useState(false);
@@ -68,7 +70,7 @@ export function MapStage({ map, rovers, zones, marked, trials, candidates, onMar
         tabIndex={0}
         {...handlers}
       >
-        <MapDrawing map={map} view={view} size={size} rovers={rovers} marked={marked} trials={trials} candidates={candidates} showScan={showScan} zones={zones} drawn={dragged ?? drawn} />
+        <MapDrawing map={map} view={view} size={size} rovers={rovers} trails={trails} marked={marked} trials={trials} candidates={candidates} showScan={showScan} zones={zones} drawn={dragged ?? drawn} />
         <span className={css.cross}>
           <Icon name="target" size={28} />
         </span>

@@ -28,7 +28,7 @@ export function PlaceBar({ robot, marked, way, question, candidates, onClear, on
   const { t } = useTranslation('map');
   if (!marked) {
     return (
-      <div className={css.bar} aria-live="polite">
+      <div className={css.bar} data-empty="true" aria-live="polite">
         <p className={css.hint}>{candidates.size > 0 ? t('tapAnswer', { robot }) : t('tap')}</p>
       </div>
     );
