@@ -22,7 +22,8 @@ from parley.sentences import SpokenLanguage
 
 __all__ = [
     "ApprovalPolicy", "CallSettings", "EmailSettings", "EmbeddingSettings", "FeedSettings", "ModelPrice",
-    "ModelSettings", "NetworkSettings", "SystemConfig", "language_name",
+    "ModelSettings", "NetworkSettings", "SystemConfig", "TlsSettings",
+    "language_name",
 ]  # fmt: skip
 
 ApprovalPolicy = Literal["run_at_once", "ask_when_risky", "ask_first"]
@@ -184,6 +185,19 @@ class FeedSettings(BaseModel):
     """Wider pictures are made smaller."""
 
 
+class TlsSettings(BaseModel):
+    """Encryption between processes, in which each shows a certificate: files in PEM."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    authority: FilePath
+    """Certificate of the authority that has signed those of all; who has another one is not let in."""
+    certificate: FilePath
+    """This process's own, for the names or addresses under which others connect to it."""
+    key: FilePath
+    """Its private key."""
+
+
 class NetworkSettings(BaseModel):
     """Into which network of Zenoh a process goes. As it stands: the processes of this machine."""
 
@@ -191,8 +205,8 @@ class NetworkSettings(BaseModel):
 
     domain: int = Field(default=0, ge=0, le=232)
     """Processes of other domains are not seen (ROS: `ROS_DOMAIN_ID`)."""
-    listen: tuple[str, ...] = ("tcp/127.0.0.1:0",)
-    """Where others may connect: `tcp/0.0.0.0:7447`."""
+    listen: tuple[str, ...] | None = None
+    """Where others may connect: `tcp/0.0.0.0:7447`; None: from this machine only."""
     connect: tuple[str, ...] = ()
     """Whom to connect to: `tcp/192.168.1.5:7447`."""
     interface: str = "127.0.0.1"
@@ -201,6 +215,24 @@ class NetworkSettings(BaseModel):
     """A `client` reaches others through a `router` only."""
     silence_s: float = Field(default=4.0, ge=0.5, le=60)
     """Whoever gives no sign of life for so long is taken for gone."""
+    tls: TlsSettings | None = None
+    """Encryption; None: none. With it all addresses begin with `tls/`."""
+
+    @model_validator(mode="after")
+    def _all_encrypted_or_none(self) -> Self:
+        """One address that is forgotten would be an open door."""
+        begins = "tls/" if self.tls else "tcp/"
+        for address in (*(self.listen or ()), *self.connect):
+            if not address.startswith(begins):
+                raise ValueError(
+                    f"{address} should begin with {begins}, as tls is {'' if self.tls else 'not '}set"
+                )
+        return self
+
+    @property
+    def listens(self) -> tuple[str, ...]:
+        """Where others may connect."""
+        return (f"{'tls' if self.tls else 'tcp'}/127.0.0.1:0",) if self.listen is None else self.listen
 
 
 class SystemConfig(BaseModel, TextFile):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import signal
 import sys
+import threading
 from collections.abc import AsyncIterator, Iterator
 from contextlib import AsyncExitStack, asynccontextmanager
 from typing import Literal
@@ -164,6 +165,21 @@ async def test_a_network_that_cannot_be_reached_is_said_at_once(at: str) -> None
         with pytest.raises(UnavailableError, match="network cannot be reached"):
             async with listening(at):
                 pass
+
+
+async def test_an_opening_that_is_broken_off_leaves_nothing_open(at: str) -> None:
+    def lanes() -> int:
+        return sum(thread.name.startswith("zenoh ") for thread in threading.enumerate())
+
+    async with listening(at) as here:
+        before = lanes()
+        opening = asyncio.create_task(connecting(at).__aenter__())
+        await asyncio.sleep(0)
+        opening.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await opening
+        await until(lambda: lanes() == before)
+        assert here.endpoints() == ()
 
 
 async def test_processes_of_another_domain_are_not_seen(at: str) -> None:

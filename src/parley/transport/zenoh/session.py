@@ -22,7 +22,7 @@ def config(network: NetworkSettings) -> zenoh.Config:
     made = zenoh.Config()
     settings: dict[str, Any] = {
         "mode": network.role,
-        "listen/endpoints": list(network.listen),
+        "listen/endpoints": list(network.listens),
         "connect/endpoints": list(network.connect),
         # A peer tries for ever, and meanwhile goes on without those who are not there yet.
         "connect/timeout_ms": ROUTER_WAIT_MS if network.role == "client" else -1,
@@ -35,6 +35,17 @@ def config(network: NetworkSettings) -> zenoh.Config:
         "transport/link/tx/lease": round(network.silence_s * 1000),
         "transport/link/tx/queue/congestion_control/block/wait_before_close": GIVE_UP_MS * 1000,
     }
+    if network.tls is not None:
+        certificate, key = str(network.tls.certificate), str(network.tls.key)
+        settings |= {
+            "transport/link/protocols": ["tls"],
+            "transport/link/tls/root_ca_certificate": str(network.tls.authority),
+            "transport/link/tls/enable_mtls": True,
+            "transport/link/tls/listen_certificate": certificate,
+            "transport/link/tls/listen_private_key": key,
+            "transport/link/tls/connect_certificate": certificate,
+            "transport/link/tls/connect_private_key": key,
+        }
     for name, value in settings.items():
         made.insert_json5(name, json.dumps(value))
     return made

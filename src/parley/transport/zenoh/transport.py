@@ -95,14 +95,16 @@ class ZenohTransport:
         self._loop = asyncio.get_running_loop()
         self._stops, self._calls, self._data = Lane("stops"), Lane("calls"), Lane("messages")
         try:
-            self._session = await self.ask(lambda: zenoh.open(config(self._network)))
+            await self.ask(self._open_session)
+            self._node = Node(self._network.domain, str(self._session.zid()), self._node_name)
+            self._stamp_call = self.stamps(self._node.token())
+            await self.ask(self._begin)
         except zenoh.ZError as error:
-            self._end_lanes()
+            self._abandon()
             raise UnavailableError(f"the network cannot be reached: {error}") from error
-        atexit.register(self._end_session)  # threads of the library that call Python at its end crash it
-        self._node = Node(self._network.domain, str(self._session.zid()), self._node_name)
-        self._stamp_call = self.stamps(self._node.token())
-        await self.ask(self._begin)
+        except BaseException:
+            self._abandon()
+            raise
         return self
 
     async def __aexit__(
@@ -286,6 +288,21 @@ class ZenohTransport:
         end.undeclare()
 
     # Inside
+
+    def _open_session(self) -> None:
+        self._session = zenoh.open(config(self._network))
+        atexit.register(self._end_session)  # threads of the library that call Python at its end crash it
+
+    def _abandon(self) -> None:
+        """It did not come to be open, or nobody waits for it any more; what there is of it is closed."""
+
+        def close() -> None:
+            if hasattr(self, "_session"):
+                atexit.unregister(self._end_session)
+                self._session.close()
+
+        self._calls.do(close)
+        self._end_lanes()
 
     def _begin(self) -> None:
         self._show(self._node.token())
