@@ -115,6 +115,10 @@ class WorldView:
             return None
         return await self.system.found.note(label, place, self.system.objects)
 
+    async def forget(self, thing: MapObject) -> None:
+        """See `parley.actions.context.World.forget`."""
+        await self.system.found.forget(thing)
+
 
 class System:
     """Robots, simulated or own, and everything that makes them understand people.

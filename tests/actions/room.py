@@ -101,6 +101,9 @@ class View:
     async def note(self, label: str, place: Footprint) -> MapObject | None:
         return await self.found.note(label, place, self.base)
 
+    async def forget(self, thing: MapObject) -> None:
+        await self.found.forget(thing)
+
 
 @dataclass
 class Room:

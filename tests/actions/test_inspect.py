@@ -241,6 +241,29 @@ async def test_what_only_looks_ahead_says_that_it_does_not_see_all_of_a_place() 
         assert caught.value.code is FailureCode.ATTENTION
 
 
+async def test_what_was_found_and_is_gone_is_on_the_map_no_more() -> None:
+    bay = MapObject("bay", "bay", 2.3, 1.0, "area", width_m=0.8, height_m=0.6)
+    parcel = box("parcel", 2.3, 1.0, (0.2, 0.2, 0.3), label="parcel")
+    async with room({"add": [parcel]}, BuiltinLanguage()) as here:
+        here.view = replace(here.view, base=ObjectMap((bay,)))
+        with pytest.raises(ActionFailure):
+            await inspect(here.context, "whether the bay is clear")
+        assert [item.description for item in here.view.objects.objects] == ["bay", "parcel"]
+        here.simulator.change({"remove": ["parcel"]})
+        await inspect(here.context, "whether the bay is clear")
+        assert [item.description for item in here.view.objects.objects] == ["bay"]
+
+
+async def test_of_two_places_with_one_name_the_one_is_meant_where_the_robot_is() -> None:
+    near = MapObject("s1", "store 1", 2.3, 1.0, "area", width_m=0.8, height_m=0.6, aliases=("store",))
+    far = MapObject("s2", "store 2", 2.3, 3.4, "area", width_m=0.8, height_m=0.6, aliases=("store",))
+    parcel = box("parcel", 2.3, 1.0, (0.2, 0.2, 0.3), label="parcel")
+    async with room({"add": [parcel]}, BuiltinLanguage()) as here:
+        here.view = replace(here.view, base=ObjectMap((far, near)))
+        await inspect(here.context, "whether the parcel is in the store")
+        assert "in the store 1" in here.person.told[-1] or "in store 1" in here.person.told[-1]
+
+
 async def test_nothing_amiss_is_no_failure_and_leaves_nothing_behind() -> None:
     async with room(None, BuiltinLanguage()) as here:
         looked = await inspect(here.context, "suspicious bags")

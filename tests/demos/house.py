@@ -5,9 +5,14 @@ from __future__ import annotations
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 from parley.config import SystemConfig
+from parley.demos.catalogue import Demo
 from parley.demos.observer import Observer
+from parley.demos.runner import play
+from parley.demos.story import Variant
 from parley.messages.chat import ChatFeedback
 from parley.system import System
 from parley.transport.local import LocalTransport
@@ -85,3 +90,19 @@ async def running(system: System) -> AsyncIterator[House]:
 
 
 FULL_SPEED = SystemConfig(speed=None)
+
+
+async def played(
+    demo: Demo, folder: Path, variant: str = "", seed: int = 0
+) -> tuple[str, list[dict[str, Any]], System]:
+    """How it ended, what happened, and the system that it happened in."""
+    events: list[dict[str, Any]] = []
+    systems: list[System] = []
+    config = SystemConfig(speed=None, data_dir=folder, seed=seed)
+
+    def make(different: Variant) -> System:
+        systems.append(demo.system_for(demo.story, config, different))
+        return systems[-1]
+
+    result = await play(demo.story, make, variant=variant, emit=events.append)
+    return result.reason and f"{result.reason}: {result.text}", events, systems[-1]

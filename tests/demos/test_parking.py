@@ -5,17 +5,13 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from parley.config import SystemConfig
 from parley.demos.catalogue import Demo, demo_folder, load_demo
-from parley.demos.runner import play
-from parley.demos.story import Variant
 from parley.sim.export import export_maps
-from parley.system import System
 from parley.world.object_map import MapObject
+from tests.demos.house import played
 
 Point = tuple[float, float]
 
@@ -32,22 +28,6 @@ def with_bag_at(demo: Demo, x_m: float, y_m: float) -> Demo:
     moved = event.change.model_copy(update={"add": (bag.model_copy(update={"pose": (x_m, y_m, 0.4)}),)})
     events = (event.model_copy(update={"change": moved}),)
     return replace(demo, world=demo.world.model_copy(update={"events": events}))
-
-
-async def played(
-    demo: Demo, folder: Path, variant: str = "", seed: int = 0
-) -> tuple[str, list[dict[str, Any]], System]:
-    """How it ended, what happened, and the system that it happened in."""
-    events: list[dict[str, Any]] = []
-    systems: list[System] = []
-    config = SystemConfig(speed=None, data_dir=folder, seed=seed)
-
-    def make(different: Variant) -> System:
-        systems.append(demo.system_for(demo.story, config, different))
-        return systems[-1]
-
-    result = await play(demo.story, make, variant=variant, emit=events.append)
-    return result.reason and f"{result.reason}: {result.text}", events, systems[-1]
 
 
 @pytest.mark.parametrize(

@@ -70,6 +70,10 @@ class World(Protocol):
         """Where there is free floor."""
         ...
 
+    async def forget(self, thing: MapObject) -> None:
+        """Take something that was found from the object map: it is not there any more."""
+        ...
+
     async def note(self, label: str, place: Footprint) -> MapObject | None:
         """Put something that was found on the object map, or to where it was moved.
 

@@ -15,7 +15,7 @@ from parley.robots.base import CameraImage, Detection
 from parley.sentences import sentence, together
 from parley.umrf.action import Outcome, action
 from parley.world.object_map import ObjectMap
-from parley.world.whereabouts import Footprint, called, nearest
+from parley.world.whereabouts import Footprint, Place, called, named_place, nearest, standing
 
 __all__ = ["FEED", "Inspection", "inspect"]
 
@@ -52,12 +52,13 @@ async def inspect(ctx: ActionContext, inspect: str) -> Inspection | Outcome:
     Args:
         inspect: What to look for or to look at.
     """
-    seen = await view(ctx.robot, inspect, ctx.world.objects)
+    place, known = named_place(inspect, ctx.world.objects, ctx.robot.pose())
+    seen = await view(ctx.robot, place)
     image = seen.image
     ctx.display.show(FEED, image, {"request": inspect})
     told = await _told(ctx, inspect)
     try:
-        report = await ctx.language.inspect(image, inspect, told, ctx.world.objects)
+        report = await ctx.language.inspect(image, inspect, told, known)
     except LanguageError as error:
         raise ActionFailure(
             FailureCode.UNAVAILABLE, "I took the picture, but I cannot tell what is in it just now."
@@ -69,6 +70,8 @@ async def inspect(ctx: ActionContext, inspect: str) -> Inspection | Outcome:
         report = replace(report, text=told_whole, found=None if ctx.run.result_asked else report.found)
     ctx.operator.tell(report.text)
     found = await _kept(ctx, report, image)
+    if place is not None and seen.is_whole:
+        await _forget_gone(ctx, place, image)
     if report.rules:
         text = f"{report.text} You told me: “{'” and “'.join(report.rules)}”."
         raise _alarm(text, report, found, rules=[*report.rules])
@@ -133,6 +136,15 @@ def _facts(image: CameraImage) -> dict[str, list[str]]:
     """All that was recognised, whatever was asked for: somebody may have said what to do about it."""
     seen = dict.fromkeys(detection.label for detection in image.detections or ())
     return {"seen": list(seen)} if seen else {}
+
+
+async def _forget_gone(ctx: ActionContext, place: Place, image: CameraImage) -> None:
+    """What was found in a place that is seen as a whole, and is not there now, is not on the map any more."""
+    seen = " ".join(found.label.lower() for found in image.detections or ())
+    for item in ctx.world.objects.objects if image.detections is not None else ():
+        footprint = Footprint(item.x_m, item.y_m, item.width_m, item.height_m)
+        if item.found and item.class_name not in seen and standing(footprint, place) != "outside":
+            await ctx.world.forget(item)
 
 
 def _note_sighting(ctx: ActionContext, wanted: str, thing: Detection | None, image: CameraImage) -> None:

@@ -9,8 +9,7 @@ from typing import Final
 import numpy as np
 
 from parley.robots.base import CameraImage, Detection, Robot
-from parley.world.object_map import ObjectMap
-from parley.world.whereabouts import Place, bearings, named_place
+from parley.world.whereabouts import Place, bearings
 
 __all__ = ["View", "view"]
 
@@ -30,18 +29,17 @@ class View:
     """Whether all of the place is in it, as far as that is known."""
 
 
-async def view(robot: Robot, request: str, known: ObjectMap) -> View:
-    """A picture of what is in front, or of all of the place that a request names.
+async def view(robot: Robot, place: Place | None) -> View:
+    """A picture of what is in front, or of all of a place.
 
     Args:
         robot: Who looks.
-        request: In words.
-        known: The map.
+        place: What is to be in it; None: whatever is in front.
 
     Raises:
         ActionFailure: `hardware` if the camera gives none, `not_capable` if there is no camera.
     """
-    place, sight = named_place(request, known), robot.sight
+    sight = robot.sight
     if place is None or sight is None:
         return View(await robot.image())
     low, high = bearings(robot.pose(), place)

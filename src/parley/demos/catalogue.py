@@ -24,7 +24,7 @@ from parley.world.occupancy import OccupancyMap
 
 __all__ = ["DEMOS", "Demo", "demo_folder", "load_demo"]
 
-DEMOS: Final = {"nursing-home": "nursing_home", "parking": "parking"}
+DEMOS: Final = {"nursing-home": "nursing_home", "parking": "parking", "warehouse": "warehouse"}
 """Name on the command line -> folder."""
 
 

@@ -130,38 +130,68 @@ def _add_robot(spec: mujoco.MjSpec, entry: RobotEntry) -> None:
 
 def _add_hull(body: mujoco.MjsBody, model: RobotModel) -> None:
     """A round collision hull, and over it what makes the robot look like one."""
-    radius, height = model.radius_m, model.height_m
-    base = min(model.base_height_m or height * 0.55, height)
-    colour = _rgba(ImageColor.getrgb(model.colour)[:3])
+    base = min(model.base_height_m or model.height_m * 0.55, model.height_m)
     clearance = 0.01
+    colour = _rgba(ImageColor.getrgb(model.colour)[:3])
     body.add_geom(
         type=mujoco.mjtGeom.mjGEOM_CYLINDER,
-        size=(radius, (base - clearance) / 2, 0),
+        size=(model.radius_m, (base - clearance) / 2, 0),
         pos=(0, 0, (base + clearance) / 2),
         mass=model.mass_kg,
-        rgba=colour,
+        rgba=(0, 0, 0, 0) if model.legs else colour,  # rays pass what nobody sees: the legs are seen
         **_SOLID,
     )
+    if model.legs:
+        _add_legs(body, model, colour)
+    else:
+        _add_mast(body, model, base)
+
+
+def _add_mast(body: mujoco.MjsBody, model: RobotModel, base_m: float) -> None:
+    """A slim body over the base, and a mark that shows where the front is."""
+    radius, height = model.radius_m, model.height_m
     body.add_geom(
         type=mujoco.mjtGeom.mjGEOM_CYLINDER,
-        size=(radius * 0.45, (height - base) / 2, 0),
-        pos=(0, 0, (height + base) / 2),
+        size=(radius * 0.45, (height - base_m) / 2, 0),
+        pos=(0, 0, (height + base_m) / 2),
         mass=0,
         rgba=(0.75, 0.77, 0.8, 1),
         **_SEEN_ONLY,
     )
-    body.add_geom(  # shows where the front is
+    slim = model.base_height_m is not None
+    body.add_geom(
         type=mujoco.mjtGeom.mjGEOM_BOX,
         size=(radius * 0.12, radius * 0.3, height * 0.05),
-        pos=(
-            radius * (0.85 if model.base_height_m is None else 0.5),
-            0,
-            height * (0.6 if model.base_height_m is None else 0.92),
-        ),
+        pos=(radius * (0.5 if slim else 0.85), 0, height * (0.92 if slim else 0.6)),
         mass=0,
-        rgba=(0.95, 0.45, 0.1, 1),
+        rgba=_MARK,
         **_SEEN_ONLY,
     )
+
+
+def _add_legs(body: mujoco.MjsBody, model: RobotModel, colour: tuple[float, ...]) -> None:
+    """A long body on four legs, with a dark face."""
+    radius, height = model.radius_m, model.height_m
+    dark = (0.13, 0.14, 0.16, 1.0)
+    parts = [
+        ((radius * 0.95, radius * 0.3, height * 0.13), (0.0, 0.0, height * 0.82), colour),
+        ((radius * 0.06, radius * 0.28, height * 0.11), (radius * 0.95, 0.0, height * 0.82), dark),
+        ((radius * 0.02, radius * 0.12, height * 0.03), (radius * 1.0, 0.0, height * 0.88), _MARK),
+    ]
+    parts += [
+        (
+            (radius * 0.1, radius * 0.07, height * 0.35),
+            (x * radius * 0.75, y * radius * 0.4, height * 0.36),
+            dark,
+        )
+        for x in (-1, 1)
+        for y in (-1, 1)
+    ]
+    for size, place, rgba in parts:
+        body.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=size, pos=place, mass=0, rgba=rgba, **_SEEN_ONLY)
+
+
+_MARK = (0.95, 0.45, 0.1, 1.0)
 
 
 def _rgba(rgb: tuple[int, ...]) -> tuple[float, float, float, float]:

@@ -56,6 +56,8 @@ class RobotModel(_Part):
     """How long a full battery lasts; None: the robot cannot tell how full it is."""
     base_height_m: float | None = Field(default=None, gt=0)
     """Up to where it is as wide as its radius; above is a slim body. None: a little over half its height."""
+    legs: bool = False
+    """Whether it looks like a body on four legs."""
     colour: str = "#2b2f36"
     camera: CameraModel | None = CameraModel()
     lidar: LidarModel = LidarModel()
@@ -79,6 +81,20 @@ PRESETS: Mapping[str, RobotModel] = MappingProxyType(
                 mount_height_m=1.1, mount_forward_m=0.12, pitch_rad=-0.5, fov_rad=1.2, aside_rad=1.24
             ),
             lidar=LidarModel(range_m=12.0, mount_height_m=0.2),
+        ),
+        "spot": RobotModel(
+            radius_m=0.42,
+            height_m=0.7,
+            legs=True,
+            mass_kg=32.0,
+            max_speed_mps=0.9,
+            max_turn_radps=1.5,
+            endurance_s=1.5 * 3600,
+            colour="#e3b81f",
+            camera=CameraModel(
+                mount_height_m=0.62, mount_forward_m=0.3, pitch_rad=-0.32, fov_rad=1.4, aside_rad=math.pi
+            ),
+            lidar=LidarModel(range_m=10.0, mount_height_m=0.35),
         ),
     }
 )

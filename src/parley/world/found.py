@@ -48,6 +48,11 @@ class FoundThings:
         kept = tuple(moved.pop(item.id, item) for item in known.objects)
         return replace(known, objects=(*kept, *moved.values()))
 
+    async def forget(self, thing: MapObject) -> None:
+        """Something that was found is not there any more."""
+        self._things = tuple(item for item in self._things if item.id != thing.id)
+        await self._keep()
+
     async def note(self, label: str, place: Footprint, known: ObjectMap) -> MapObject:
         """Take over that something was seen; returns it as it stands on the map from now on.
 
@@ -66,9 +71,12 @@ class FoundThings:
         else:
             found = _at(_new(label, place, now), place)
         self._things = (*(item for item in self._things if item.id != found.id), found)
+        await self._keep()
+        return found
+
+    async def _keep(self) -> None:
         if self._file is not None:
             await asyncio.to_thread(_write, self._file, ObjectMap(self._things))
-        return found
 
 
 def _apart_m(item: MapObject, place: Footprint) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final, Literal
 
 from parley.world.geometry import Pose2D, wrap_angle
@@ -18,6 +18,7 @@ __all__ = [
     "Standing",
     "bearings",
     "called",
+    "middle_of",
     "named_place",
     "nearest",
     "standing",
@@ -91,24 +92,47 @@ def nearest(x_m: float, y_m: float, objects: Iterable[MapObject]) -> MapObject |
     return found if gap_m <= NEAR_M else None
 
 
-def named_place(text: str, known: ObjectMap) -> Place | None:
-    """The thing or room of the map whose name stands in a text; of several the longest name, then the last.
+def named_place(text: str, known: ObjectMap, pose: Pose2D) -> tuple[Place | None, ObjectMap]:
+    """The thing or room of the map that a text names, and the map without others of the same name.
 
-    Examples:
-        >>> bay, hall = MapObject("b", "bay 1", 0.0, 0.0), MapObject("h", "hall", 0.0, 0.0)
-        >>> named_place("whether Bay 1 is clear", ObjectMap((bay, hall))) is bay
-        True
+    Of several names the longest counts, then the last; of several places with one name the nearest: a robot
+    that looks there was sent there.
+
+    Args:
+        text: In words.
+        known: The map.
+        pose: Where the robot is.
     """
-    low = f" {re.sub(r'[^a-z0-9]+', ' ', text.lower())} "
-    found: list[tuple[int, int, Place]] = []
+    low = f" {_plain(text)} "
+    found: dict[tuple[int, int], list[Place]] = {}
     places: list[Place] = [*known.objects, *known.areas]
     for place in places:
         names = (place.name,) if isinstance(place, MapArea) else (place.description, *place.aliases)
-        for name in names:
-            at = low.rfind(f" {re.sub(r'[^a-z0-9]+', ' ', name.lower()).strip()} ")
-            if at >= 0 and name.strip():
-                found.append((len(name), at, place))
-    return max(found, key=lambda one: one[:2])[2] if found else None
+        at, name = max(((low.rfind(f" {_plain(name)} "), _plain(name)) for name in names), default=(-1, ""))
+        if at >= 0 and name:
+            found.setdefault((len(name), at), []).append(place)
+    if not found:
+        return None, known
+    same = sorted(found[max(found)], key=lambda place: _away_m(pose, place))
+    others = {place.id for place in same[1:] if isinstance(place, MapObject)}
+    return same[0], replace(known, objects=tuple(item for item in known.objects if item.id not in others))
+
+
+def _plain(text: str) -> str:
+    return re.sub(r"[^a-z0-9]+", " ", text.lower()).strip()
+
+
+def _away_m(pose: Pose2D, place: Place) -> float:
+    x_m, y_m = middle_of(place)
+    return math.hypot(x_m - pose.x_m, y_m - pose.y_m)
+
+
+def middle_of(place: Place) -> tuple[float, float]:
+    """The middle of a thing, or of a room's corners."""
+    if isinstance(place, MapObject):
+        return place.x_m, place.y_m
+    x, y = zip(*place.corners, strict=True)
+    return sum(x) / len(x), sum(y) / len(y)
 
 
 def bearings(pose: Pose2D, place: Place) -> tuple[float, float]:
@@ -118,9 +142,7 @@ def bearings(pose: Pose2D, place: Place) -> tuple[float, float]:
     else:
         wide, high = place.width_m / 2, place.height_m / 2
         corners = [(place.x_m + dx * wide, place.y_m + dy * high) for dx in (-1, 1) for dy in (-1, 1)]
-    middle = pose.bearing_to(
-        sum(x for x, _ in corners) / len(corners), sum(y for _, y in corners) / len(corners)
-    )
+    middle = pose.bearing_to(*middle_of(place))
     aside = [wrap_angle(pose.bearing_to(x, y) - middle) for x, y in corners]
     ahead = wrap_angle(middle - pose.yaw_rad)
     return ahead + min(aside), ahead + max(aside)

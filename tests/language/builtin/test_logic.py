@@ -263,3 +263,11 @@ async def test_a_list_with_something_else_in_it_is_no_such_fact() -> None:
         situation("There are two places of interest: gate 1, and open the window.")
     )
     assert not any("interest" in str(command.arguments) for command in other.system_cmd)
+
+
+async def test_the_reason_before_an_order_is_taken_as_such() -> None:
+    answer = await ENGINE.interpret(situation("We need to prepare for tomorrow's visit. Go to gate 2."))
+    assert [step.name for step in answer.queue] == ["GetCoordinates", "NavigateTo"]
+    assert "“We need to prepare for tomorrow's visit” for the reason" in answer.message_response
+    named = await ENGINE.interpret(situation("We need to prepare the pump. Go to gate 2."))
+    assert "for the reason" not in named.message_response

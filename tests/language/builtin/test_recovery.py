@@ -215,3 +215,17 @@ async def test_after_an_alarm_an_order_about_something_else_leaves_it_open() -> 
     alarm = failure("go to the office", FailureCode.ATTENTION)
     answer = await ENGINE.resolve(replace(alarm, details={"found": ["blue crate"]}, catalogue=CATALOGUE))
     assert answer.success is None
+
+
+async def test_what_somebody_has_done_is_remembered_and_the_robot_looks_again() -> None:
+    reply = "The front gate has been cleared. Please go to the office."
+    alarm = ErrorSituation(
+        "The front gate is not clear.", STEP, FailureCode.ATTENTION, {}, reply=reply, objects=THINGS,
+        catalogue=CATALOGUE,
+    )  # fmt: skip
+    answer = await ENGINE.resolve(alarm)
+    assert (answer.success, answer.queue) == (True, (STEP,))
+    assert [target(step) for step in answer.afterwards] == ["office"]
+    assert [command.arguments["data"] for command in answer.system_cmd] == ["The front gate has been cleared"]
+    denied = await ENGINE.resolve(replace(alarm, reply="The front gate has not been cleared."))
+    assert not denied.success

@@ -7,12 +7,13 @@ from dataclasses import dataclass, replace
 
 from parley.language.builtin.amounts import amount_of
 from parley.language.builtin.checks import Look
-from parley.language.builtin.decision import Ask, Deed
+from parley.language.builtin.decision import Ask, Deed, Note
 from parley.language.builtin.deeds import Builder
 from parley.language.builtin.doubts import doubt, may_be_offered
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.structure import If, Node, Orders, Part
 from parley.language.builtin.wishes import Filler, Wish
+from parley.language.dialogue.mentions import named
 
 __all__ = ["NO_DEED", "Planner", "contradicted", "orders_of"]
 
@@ -35,12 +36,15 @@ class Planner:
     """Makes the deeds of all that a message wants."""
 
     builder: Builder
+    first: Node | None = None
+    """What stands before all the rest, if there is more."""
     last: Wish | None = None
     """What was wanted last of something that was named."""
 
     def planned(self, nodes: Sequence[Node]) -> list[Deed] | Ask:
         """The deeds of nodes, in order."""
         deeds: list[Deed] = []
+        self.first = next(iter(nodes), None) if len(nodes) > 1 and self.first is None else self.first
         for node in nodes:
             made = self._if(node) if isinstance(node, If) else self._orders(node)
             if isinstance(made, Ask):
@@ -79,6 +83,9 @@ class Planner:
 
     def _orders(self, node: Orders) -> list[Deed] | Ask:
         reading = node.part.reading
+        if self._only_says_why(node):
+            self.builder.notes.append(Note(f"I take “{node.part.text}” for the reason."))
+            return []
         if node.is_order:
             reading = self._as_ordered(node.part)
         elif not orders_of(reading) and (node.branch or self.last) and not reading.acts & _NO_ORDER:
@@ -113,6 +120,14 @@ class Planner:
                 return made
             deeds += made
         return [*before, *deeds]
+
+    def _only_says_why(self, node: Orders) -> bool:
+        """Whether a clause before the orders tells of a need and names nothing: "we expect guests"."""
+        reading, builder = node.part.reading, self.builder
+        needs = [wish for wish in reading.wishes if wish.act == "need" and not wish.fillers]
+        things = named(node.part.parse.tokens, builder.situation.objects, builder.lexicon)
+        vague = needs and len(needs) == len(reading.wishes) and not things
+        return bool(vague and not node.limits and self.first is node)
 
     def _elided(self, part: Part) -> Reading | Ask:
         """What is wanted of a thing without a word for it: what was wanted of the last one."""

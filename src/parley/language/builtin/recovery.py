@@ -218,8 +218,8 @@ class Repairer:
                 made = _solved(situation, "I try again.", again)
         if unclear:
             text = f"{made.message_response} I did not understand “{found.rest}”."
-            return made.model_copy(update={"message_response": text})
-        return _with_rest(made, behind)
+            made = made.model_copy(update={"message_response": text})
+        return _with_fact(_with_rest(made, behind), found.fact)
 
     @staticmethod
     def _given_up(situation: ErrorSituation, rest: str, behind: ChatAction | None) -> ChatAction:
@@ -425,6 +425,15 @@ def _with_rest(made: ChatAction, behind: ChatAction | None) -> ChatAction:
         return made
     text = f"{made.message_response} After that: {behind.message_response}"
     return made.model_copy(update={"message_response": text, "afterwards": behind.queue})
+
+
+def _with_fact(made: ChatAction, fact: str) -> ChatAction:
+    """With a memory of what was told."""
+    if not fact:
+        return made
+    name = "_".join(re.findall(r"\w+", fact.lower()))[:150]
+    kept = SystemCommand(command="add_memory", arguments={"name": name, "data": fact, "info": fact})
+    return made.model_copy(update={"system_cmd": (*made.system_cmd, kept)})
 
 
 def _with_words(step: ActionCall, words: str) -> ActionCall:

@@ -46,6 +46,11 @@ _CLEARING: Final = re.compile(
     r"\b(?:moved|removed|opened|cleared|pushed|pulled|freed|fixed|closed|plugged)\b"
 )
 """What somebody does for a robot that goes on then; else what they did themselves is the step."""
+_FREED: Final = re.compile(
+    r"(?P<what>(?!i\b|we\b|it\b|that\b|this\b).+) (?:has|have) (?:now |just |all )?been "
+    r"(?:moved|removed|cleared|taken away|picked up|put away|fixed|closed|opened)(?: now| again)?"
+)
+"""What is told to have been done, of something that is named: worth remembering as well."""
 _MOST_WORDS: Final = 9
 _LONGEST_S: Final = 3600.0
 
@@ -58,6 +63,8 @@ class Settled:
     delay_s: float = 0.0
     rest: str = ""
     """What is said besides, which may be an order: for afterwards, or with `clear` in place of the plan."""
+    fact: str = ""
+    """What is so from now on, in the person's words."""
 
 
 def settled(reply: str, things: Collection[str]) -> Settled | None:
@@ -77,6 +84,8 @@ def settled(reply: str, things: Collection[str]) -> Settled | None:
         if way == "again":
             later = _seconds(rest)
             return Settled(way, min(wait_s + seconds + later, _LONGEST_S), "" if later else rest)
+        if way is None and _FREED.fullmatch(plain(tokenize(piece))) and not {*words_of(piece)} & _NOT:
+            return Settled("done", 0.0, rest, piece.strip())
         gives_up = way == "without" and rest and _GIVING_UP.fullmatch(plain(tokenize(piece)))
         return None if way is None else Settled("clear" if gives_up else way, 0.0, rest)
     return Settled("again", min(wait_s, _LONGEST_S)) if wait_s else None
