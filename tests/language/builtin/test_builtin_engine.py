@@ -168,6 +168,9 @@ def test_what_is_only_named_is_offered_or_asked_about(message: str, asked: str) 
 
 def test_it_is_what_the_message_begins_to_tell_of() -> None:
     assert calls(situation("the pump makes a strange noise, have a look at it")) == [("LOOK", ["pump"])]
+    assert calls(situation("the office is closed today, take it off")) == []
+    cups = situation("take the cups and put them on the desk", objects=(*THINGS, thing("cup", 20)))
+    assert calls(cups) == [("TAKE", ["cup"]), ("PUT", ["cup", "desk"])]
 
 
 def test_a_thing_that_no_map_holds_is_looked_for_where_it_is_said_to_be() -> None:

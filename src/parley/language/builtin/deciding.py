@@ -137,7 +137,8 @@ def _alone(
     known = places((*situation.memory, *now), reader, lexicon)
     builder = Builder(situation, skills, lexicon, known)
     thing, person = policy.spoken_of(situation, known, lexicon)
-    builder.recall(thing or policy.subject_of(situation, parts, lexicon), person)
+    visits = all(wish.frame in ("GO", "LOOK", "PHOTO") for wish in orders)
+    builder.recall(thing or (policy.subject_of(situation, parts, lexicon) if visits else None), person)
     deeds = Planner(builder).planned(nodes)
     if isinstance(deeds, Ask):
         return builder.doubts[0] if builder.doubts else deeds

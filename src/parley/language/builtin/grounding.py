@@ -204,7 +204,8 @@ class Grounder:
     def _those(self, filler: Filler) -> Value | Ask:
         """What "them" means: several things of this message or the last one, or one that is many ("cups")."""
         last = self.last_thing
-        if last is not None and (last.each or not last.things or last.said.endswith("s")):
+        mugs = last is not None and last.things[:1] != (self.before,)  # "take the mugs and bring them"
+        if last is not None and (last.each or not last.things or last.said.endswith("s") or mugs):
             return last
         said = [turn.content for turn in self.situation.history if turn.role == "operator"][-1:]
         before = [
