@@ -97,7 +97,9 @@ def _merged(parse: Parse) -> list[Span]:
         if span.owner is not None and nearest is not None and span.owner < nearest and span.role in "TGSRHN":
             span = replace(span, owner=nearest)
         told = next((n for n, verb in enumerate(parse.verbs) if verb.start == span.end), None)
-        if span.role == "T" and told is not None and parse.verbs[told].frame == "BELOC":
+        other = parse.verbs[span.owner].frame if span.owner is not None else ""
+        joined = span.start > 1 and parse.tokens[span.start - 1].low == "and"
+        if span.role == "T" and joined and told and other == parse.verbs[told].frame == "BELOC":
             span = replace(span, owner=told)  # "... and Kim is at the desk": of whom that is told
         later = nearest is not None and span.owner is not None and span.owner > nearest
         if later and nearest is not None and _apart(parse, span, nearest):
