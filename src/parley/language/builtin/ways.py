@@ -72,7 +72,8 @@ class Ways(Grounder):
         if skill is None or pose is None or not skill.takes_pose:
             return Ask("Where shall I go back to?")
         self.at = ""
-        return [self._driven(skill, pose.x_m, pose.y_m, pose.yaw_rad, said)]
+        driven = self._driven(skill, pose.x_m, pose.y_m, pose.yaw_rad, said)
+        return [replace(driven, text=f"come back to {said}")]
 
     @staticmethod
     def _driven(skill: Skill, x_m: float, y_m: float, yaw_rad: float, said: str) -> Deed:
