@@ -23,8 +23,7 @@ _WORDS: Final = (
 )
 _PHRASES: Final = (
     r"hold\s+(?:it|on|still|your)|hang\s+on|stand\s+still|stay\s+(?:there|where|put|still)|watch\s+(?:out|"
-    r"it)|"
-    r"look\s+out|heads\s+up|back\s+off|knock\s+it\s+off|(?:don['’]?t|do\s+not)\s+(?:you\s+)?(?:dare\s+)?"
+    r"it)|look\s+out|heads\s+up|back\s+off|knock\s+it\s+off|(?:don['’]?t|do\s+not)\s+(?:you\s+)?(?:dare\s+)?"
     r"(?:move|drive|go\s+any|come\s+any)|no\s+further|not\s+(?:another|one)\s+(?:step|inch|centimet\w+)|"
     r"pea\s+kinni|jää\s+(?:seisma|paigale)|ära\s+(?:liigu|sõida)|paigal|kohe\s+seisma"
 )
@@ -40,8 +39,7 @@ _THING: Final = (
 )
 _AUXILIARY: Final = (
     r"(?:did|does|do|has|have|had|will|would|why|when|where|who|what|which|how|if|once|until|till|before|"
-    r"after|"
-    r"unless|whether|cannot|can['’]?t|could\s+not|couldn['’]?t|going\s+to|it|he|she|they)"
+    r"after|unless|whether|cannot|can['’]?t|could\s+not|couldn['’]?t|going\s+to|it|he|she|they)"
 )
 _NONE: Final = tuple(
     re.compile(text, re.IGNORECASE)
@@ -49,15 +47,13 @@ _NONE: Final = tuple(
         # no stopping at all, or only of something else
         r"\b(?:don['’]?t|do\s+not|never|not|without|no\s+need\s+to|needn['’]?t|non|won['’]?t|"
         r"shouldn['’]?t|must\s+not|mustn['’]?t|isn['’]?t|ära|mitte)\s+(?:\w+\s+)?(?:stop(?:ping)?|halt|"
-        r"wait|peatu|"
-        r"oota|seisa)\b(?!\s*[!.,;]*\s*(?:stop|halt|wait)\b)",
+        r"wait|peatu|oota|seisa)\b(?!\s*[!.,;]*\s*(?:stop|halt|wait)\b)",
         r"\bnon-?stop\b",
         r"\b(?:bussi|rongi|trammi)?peatus\w*\b",
         # a thing that is called so
         rf"\b{_THING}\s+(?:\w+\s+)?(?:stops?|halt|wait|emergency|brake)\b",
         r"\b(?:stop|emergency|wait|brake|freeze)\s+(?:button|sign|switch|exit|door|light|room|list|time|"
-        r"lever|"
-        r"pedal|frame|kit|number|plan)\b",
+        r"lever|pedal|frame|kit|number|plan)\b",
         # told, asked, or for later
         r"\b(?:tell|told|ask|asked|remind)\s+\w+\s+to\s+(?:stop|halt|wait)\b",
         rf"\b{_AUXILIARY}\s+(?:\w+\s+)?(?:stop|halt|wait|freeze|brake)\b(?!\s*[!])",

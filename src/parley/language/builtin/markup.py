@@ -70,9 +70,7 @@ FRAMES: tuple[str, ...] = (
 
 _PIECE = re.compile(
     r"\{(?P<words>[^{}:]+):(?P<mode>[!~<>^]?)(?P<frame>[A-Z]+|\+)\}"
-    r"|\((?P<role>[A-Z])(?:@(?P<owner>\d+))? (?P<span>[^()]+)\)"
-    r"|<(?P<act>[a-z]+)>"
-    r"|(?P<plain>[^{}()<>]+)"
+    r"|\((?P<role>[A-Z])(?:@(?P<owner>\d+))? (?P<span>[^()]+)\)|<(?P<act>[a-z]+)>|(?P<plain>[^{}()<>]+)"
     r"|(?P<wrong>.)"
 )
 

@@ -39,12 +39,10 @@ _ORDINALS: Final = frozenset({
 })  # fmt: skip
 _AGAINST: Final = re.compile(
     r"\b(?:not|no|without|skip(?:ping)?|leave(?: \w+)? out|leaving out|drop|omit|forget(?: about)?|except|"
-    r"but not|"
-    r"instead of|rather than|cancel|remove|delete|scratch|never mind|don't(?: \w+){0,3}|"
+    r"but not|instead of|rather than|cancel|remove|delete|scratch|never mind|don't(?: \w+){0,3}|"
     r"do not(?: \w+){0,3}|no need "
     r"(?:to|for)(?: \w+){0,2}|cut out|strike|spare)(?: (?:the|a|an|my|to|at|by|about|going|to go|for|"
-    r"go to|going to|visit|"
-    r"visiting|that|this|trip|bit|part|stop|step|of|with))*$"
+    r"go to|going to|visit|visiting|that|this|trip|bit|part|stop|step|of|with))*$"
 )
 _TAKING_BACK: Final = re.compile(
     r"\b(?:no|nope|not|wait|sorry|oops|actually|instead|rather|scratch|forget (?:it|that|this|about)|"
@@ -62,8 +60,7 @@ _INSTEAD: Final = re.compile(
 """What takes back also what comes "first"; "actually" and "wait" do not."""
 _ADDING: Final = re.compile(
     r"\b(?:also|add|too|as well|and then|then|after (?:that|this|wards?)|afterwards|at the end|finally|"
-    r"besides|plus|"
-    r"include|append|on top|later|when you are done|when done|next)\b"
+    r"besides|plus|include|append|on top|later|when you are done|when done|next)\b"
 )
 _ALL: Final = re.compile(
     r"\b(?:all|everything|forget (?:it|that|this)|scratch|cancel|drop (?:it|that)|never ?mind)\b"

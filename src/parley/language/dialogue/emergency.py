@@ -128,8 +128,7 @@ def _alarm(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, orde
     wanted = f"Shall I do as you say (“{order}”), or stay here?" if order else ""
     offer = wanted or (f"Shall I go to {where}, or stay here?" if where else "Where is it? Shall I go there?")
     return Ask(
-        f"{still}{_ALARMED}, and I cannot help with hands, nor call anybody by phone: "
-        f"please "
+        f"{still}{_ALARMED}, and I cannot help with hands, nor call anybody by phone: please "
         f"get help at once. I tell everybody who is connected to me. {offer}",
         (what, "Stay here") if what else (),
         stops=moving,

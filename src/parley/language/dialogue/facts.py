@@ -41,13 +41,11 @@ _BEING: Final = re.compile(
 )
 _FORGET: Final = re.compile(
     r"(?:please |you can |you may |can you |could you )*forget (?:about |all about |what (?:i|"
-    r"we) (?:told you|said) about |"
-    r"everything about |that |where |who |what |how |when )*(?P<about>.+)"
+    r"we) (?:told you|said) about |everything about |that |where |who |what |how |when )*(?P<about>.+)"
 )
 _NAME: Final = re.compile(
     r"(?!(?:It|There|The|This|That|I|He|She|They|We|You|My|Here|Ok|Okay|Yes|No|All|Everything|Done|Now|"
-    r"Sorry|Your)\b)"
-    r"(?:(?:Mr|Mrs|Ms|Dr)\.? )?[A-Z][a-z]+ (?!$)"
+    r"Sorry|Your)\b)(?:(?:Mr|Mrs|Ms|Dr)\.? )?[A-Z][a-z]+ (?!$)"
 )
 """Somebody by name: what is said of them is no answer to what a robot asked."""
 _KEEP: Final = re.compile(

@@ -49,8 +49,7 @@ __all__ = ["Again", "afterwards", "beforehand", "no_facts", "only_names", "promi
 
 _SOCIAL: Final = re.compile(
     r"(?:good (?:morning|day|evening|night|afternoon)|hello|hi|hey|bye|goodbye|see you(?: later)?|"
-    r"thank(?:s| you)(?: \w+)*|"
-    r"(?:that (?:was|is)|that's) (?:nice|great|good|perfect|lovely|fine|quick|fast)|"
+    r"thank(?:s| you)(?: \w+)*|(?:that (?:was|is)|that's) (?:nice|great|good|perfect|lovely|fine|quick|fast)|"
     r"cheers|well done|good (?:job|boy|robot|work)|nice|great|perfect|cool|wow|haha+.*|lol|sorry|"
     r"you(?: are|'re| r) .+)"
 )
