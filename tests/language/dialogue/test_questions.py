@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from parley.errors import FailureCode
@@ -13,6 +15,7 @@ from parley.language.dialogue.places import rooms, whereabouts
 from parley.language.dialogue.questions import plain, question_of, shapes
 from parley.language.dialogue.state import Asked, Deed, Dialogue, Order, Stop
 from parley.messages.chat import ActionCall
+from parley.messages.memory import MemoryEntry
 from parley.messages.status import PlanStep
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
@@ -181,3 +184,26 @@ async def test_while_a_failure_is_asked_about_questions_are_answered_from_it(mes
 )
 def test_an_order_for_afterwards_is_an_order(message: str, kept: str | None) -> None:
     assert in_turn(message) == (kept or message)
+
+
+@pytest.mark.parametrize(
+    ("message", "looks"),
+    [
+        ("is the gate clear?", "whether the gate is clear"),
+        ("ok, is there a bag at the gate?", "whether there is a bag at the gate"),
+        ("is anybody at the gate?", "whether anybody is at the gate"),
+        ("where is the gate?", ""),
+        ("is the gate near the box?", ""),
+        ("is it far to the gate?", ""),
+    ],
+)
+async def test_how_something_is_now_only_a_look_can_tell_and_that_is_offered(
+    message: str, looks: str
+) -> None:
+    situation = Situation(message, objects=THINGS, robot="Ada", catalogue=CATALOGUE)
+    made = await ENGINE.interpret(situation)
+    values = [value.value for call in made.offer for value in call.input_parameters.values()]
+    assert (made.queue, values[-1:]) == ((), [looks] if looks else [])
+    told = (MemoryEntry(name="gate", data="The gate is clear"),)
+    known = await ENGINE.interpret(replace(situation, memory=told))
+    assert not known.offer or not looks.endswith("clear")

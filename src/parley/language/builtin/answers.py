@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Final
 
 from parley.language.base import Situation
@@ -12,11 +12,12 @@ from parley.language.builtin.lexicon import Lexicon, stem
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.saying import as_said, with_article
 from parley.language.builtin.things import link, noun_phrase
-from parley.language.builtin.tokens import tokenize
+from parley.language.builtin.tokens import Token, tokenize
+from parley.language.dialogue.mentions import Named
 from parley.language.dialogue.places import lies, whereabouts
 from parley.world.object_map import MapObject
 
-__all__ = ["answer"]
+__all__ = ["answer", "look_asked_for"]
 
 
 _NO_ANSWER: Final = "I cannot answer that. I can tell where a thing is, if it is on my map or was told to me."
@@ -44,12 +45,48 @@ def answer(
     if place is not None:
         return Answer(f"I remember: {place.memory.data.rstrip('.')}.", (place.memory.name,))
     if mention.kind == "one":
-        return Answer(_lying(situation, mention.things[0]))
+        told = None if "where" in situation.message.lower() else _kept(situation, lexicon)
+        return told or Answer(_lying(situation, mention.things[0]))
     if mention.kind == "several":
         named = " and ".join(with_article(item.description) for item in mention.things)
         return Answer(f"On my map there is {named}.")
     shown = with_article(as_said(mention.text, situation.message))
     return _kept(situation, lexicon) or Answer(f"I do not know anything about {shown}.")
+
+
+def look_asked_for(tokens: Sequence[Token], names: Sequence[Named]) -> str:
+    """The order that answers "is the gate clear?" or "is there a bag at the gate?"; empty for others.
+
+    How something is now, no map and no memory can tell; where it is, they can.
+
+    Args:
+        tokens: Of the message.
+        names: What it names on the map.
+    """
+    low = [token.low for token in tokens if token.is_word]
+    ask = next((at for at, word in enumerate(low[:3]) if word in ("is", "are")), None)
+    if ask is None or set(low[:ask]) - _OPENING or len(names) != 1 or len(names[0].things) != 1:
+        return ""
+    being, rest = low[ask], low[ask + 1 :]
+    if rest[:1] == ["there"] or (rest and rest[0] in _ANY):
+        return f"check if {rest[0]} {being} {' '.join(rest[1:])}"
+    end = next(
+        (at for at in range(len(rest), 0, -1) if rest[at - len(names[0].words) : at] == [*names[0].words]), 0
+    )
+    subject, state = rest[:end], rest[end:]
+    if not state or len(subject) > len(names[0].words) + 1 or {*state} & _PLACED:
+        return ""
+    return f"check if {' '.join(subject)} {being} {' '.join(state)}"
+
+
+_OPENING: Final = frozenset({"so", "and", "ok", "okay", "hey", "please", "well"})
+_ANY: Final = frozenset(
+    {"anybody", "anyone", "somebody", "someone", "anything", "something", "everything", "nobody", "all"}
+)
+_PLACED: Final = frozenset({
+    "at", "in", "on", "near", "far", "away", "close", "here", "by", "next", "behind", "beside", "under",
+    "where", "to", "from", "or", "called", "yours", "mine", "it", "that", "left", "right",
+})  # fmt: skip
 
 
 def _is_about_failure(situation: Situation, lexicon: Lexicon) -> bool:

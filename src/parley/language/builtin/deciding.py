@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from parley.language.base import Situation
 from parley.language.builtin.addressing import addressed
-from parley.language.builtin.answers import answer
+from parley.language.builtin.answers import answer, look_asked_for
 from parley.language.builtin.decision import Answer, Ask, Control, Decision, Do, Remember, Told
 from parley.language.builtin.deeds import Builder
 from parley.language.builtin.facts import places, rule_of, told_of
@@ -65,6 +65,8 @@ def decide(
     if rule is not None:
         return Remember((rule,))
     made = _alone(situation, parts, skills, lexicon, reader)
+    if isinstance(made, Answer) and not made.sources and "question" in whole.acts and not situation.question:
+        made = _looking(situation, tokens, lexicon, again) or made
     if isinstance(made, Ask) and (promise := policy.promised(situation, lexicon, again)) is not None:
         return promise
     made = policy.afterwards(made, situation, whole, tokens, lexicon)
@@ -73,6 +75,15 @@ def decide(
     if isinstance(made, Ask) and "told" in whole.acts and not made.alarms:
         return replace(made, told=policy.no_facts(_beside(situation.message, again), situation, beside=True))
     return made
+
+
+def _looking(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, again: Again) -> Ask | None:
+    """To have a look is offered where only that tells."""
+    order = look_asked_for(tokens, named(tokens, situation.objects, lexicon))
+    made = again(order) if order else None
+    if not isinstance(made, Do) or {*made.robots} - {situation.robot}:
+        return None
+    return Ask("I cannot tell that from here. Shall I go and look?", offer=made.deeds)
 
 
 _SENTENCE = re.compile(r"\w[^.,;:!?]*")
