@@ -435,7 +435,7 @@ async def test_impossible_edit_leaves_the_plan_waiting() -> None:
         await party.until(lambda: proposals(party))
         identity = proposals(party)[0]["id"]
         decide(party, id=identity, decision="edit", steps=[{"Fly": {}}])
-        await party.hears("cannot carry out")
+        await party.hears("I cannot do step 1, “Fly”")
         decide(party, id=identity, decision="approve")
         await party.until(lambda: party.body.did == ["look box"])
 
