@@ -55,7 +55,7 @@ def answer(
 
 
 def look_asked_for(tokens: Sequence[Token], names: Sequence[Named]) -> str:
-    """The order that answers "is the gate clear?" or "is there a bag at the gate?"; empty for others.
+    """The order that answers "is the gate clear?" or "is there a cat at the gate?"; empty for others.
 
     How something is now, no map and no memory can tell; where it is, they can.
 
