@@ -8,9 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from parley.demos.catalogue import Demo, demo_folder, load_demo
-from parley.sim.export import export_maps
-from parley.world.object_map import MapObject
+from parley.demos.catalogue import Demo, load_demo
 from tests.demos.house import played
 
 Point = tuple[float, float]
@@ -50,24 +48,3 @@ async def test_story_holds_and_the_bag_is_found_where_the_camera_saw_it(
     assert len([node for node in looks if node.startswith("Inspect")]) == 4
     kept = {event["name"] for event in events if event["event"] == "memory"}
     assert {"areas_of_interest", "black_bag_sighting", "picture of the black bag"} <= kept
-
-
-@pytest.mark.parametrize("variant", ["nobody_comes", "bag_in_a", "dead_camera"])
-async def test_story_breaks_where_the_world_makes_it_impossible(
-    demo: Demo, tmp_path: Path, variant: str
-) -> None:
-    reason, _, _ = await played(demo, tmp_path, variant)
-    assert reason.partition(":")[0] == demo.story.variant(variant).fails != ""
-
-
-async def test_every_variant_is_tested(demo: Demo) -> None:
-    marks = test_story_breaks_where_the_world_makes_it_impossible.pytestmark  # type: ignore[attr-defined]
-    assert {*demo.story.variants} == {*marks[0].args[1], "other_words"}
-
-
-def test_its_map_files_are_what_a_survey_of_the_world_gives(demo: Demo, tmp_path: Path) -> None:
-    """After a change to world.yaml: `parley world map`."""
-    export_maps(demo.world, tmp_path)
-    for name in ("map.yaml", "map.pgm", "object_map.json"):
-        assert (demo_folder("parking") / name).read_bytes() == (tmp_path / name).read_bytes()
-    assert all(isinstance(item, MapObject) and item.class_name != "bag" for item in demo.objects.objects)

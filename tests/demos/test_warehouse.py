@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from parley.demos.catalogue import Demo, demo_folder, load_demo
-from parley.sim.export import export_maps
+from parley.demos.catalogue import Demo, load_demo
 from tests.demos.house import played
 
 
@@ -27,23 +26,3 @@ async def test_story_holds_and_what_stands_at_the_edge_is_told(
     assert found == {"package"}  # the cylinder was taken away, and that was seen
     kept = {event["name"] for event in events if event["event"] == "memory"}
     assert variant or "the_loading_area_has_been_cleared" in kept
-
-
-@pytest.mark.parametrize("variant", ["no_package", "package_in_a", "clear_already"])
-async def test_story_breaks_where_the_world_makes_it_impossible(
-    demo: Demo, tmp_path: Path, variant: str
-) -> None:
-    reason, _, _ = await played(demo, tmp_path, variant)
-    assert reason.partition(":")[0] == demo.story.variant(variant).fails != ""
-
-
-async def test_every_variant_is_tested(demo: Demo) -> None:
-    marks = test_story_breaks_where_the_world_makes_it_impossible.pytestmark  # type: ignore[attr-defined]
-    assert {*demo.story.variants} == {*marks[0].args[1], "other_words"}
-
-
-def test_its_map_files_are_what_a_survey_of_the_world_gives(demo: Demo, tmp_path: Path) -> None:
-    """After a change to world.yaml: `parley world map`."""
-    export_maps(demo.world, tmp_path)
-    for name in ("map.yaml", "map.pgm", "object_map.json"):
-        assert (demo_folder("warehouse") / name).read_bytes() == (tmp_path / name).read_bytes()

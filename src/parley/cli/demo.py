@@ -21,7 +21,14 @@ from parley.cli.choosing import (
 )
 from parley.cli.on_loop import on_loop
 from parley.cli.output import emit_json, fail, quiet_logs
-from parley.cli.web import PORT, page_settings, serve_until_interrupted
+from parley.cli.web import (
+    LanOption,
+    NoOpenOption,
+    PasswordFileOption,
+    PortOption,
+    page_settings,
+    serve_until_interrupted,
+)
 from parley.config import SystemConfig
 from parley.demos.catalogue import DEMOS, Demo, load_demo
 from parley.demos.runner import StoryResult, play
@@ -52,16 +59,10 @@ def demo(
     variant: Annotated[str, typer.Option(help="Play this variant of the story.")] = "",
     json: Annotated[bool, typer.Option("--json", help="One JSON object per event.")] = False,
     terminal: Annotated[bool, typer.Option("--terminal", help="Chat in the terminal instead.")] = False,
-    no_open: Annotated[bool, typer.Option("--no-open", help="Do not open the page in a browser.")] = False,
-    port: Annotated[
-        int | None, typer.Option(min=0, max=65535, help=f"Port of the page; default: {PORT}, or a free one.")
-    ] = None,
-    lan: Annotated[
-        bool, typer.Option("--lan", help="Let phones in this network in: HTTPS, with a code to sign in.")
-    ] = False,
-    password_file: Annotated[
-        Path | None, typer.Option(help="File with a password to sign in with, here too.")
-    ] = None,
+    no_open: NoOpenOption = False,
+    port: PortOption = None,
+    lan: LanOption = False,
+    password_file: PasswordFileOption = None,
     pair_as: Annotated[
         str, typer.Option(help="What a code lets a device be: viewer, operator or supervisor.")
     ] = "operator",

@@ -10,7 +10,14 @@ import typer
 
 from parley.cli.on_loop import on_loop
 from parley.cli.output import quiet_logs
-from parley.cli.web import PORT, page_settings, serve_until_interrupted
+from parley.cli.web import (
+    LanOption,
+    NoOpenOption,
+    PasswordFileOption,
+    PortOption,
+    page_settings,
+    serve_until_interrupted,
+)
 from parley.config import SystemConfig
 from parley.errors import ConfigError
 from parley.extras import needs
@@ -40,16 +47,10 @@ def terminal(
 def web(
     config: NetworkOption,
     data: Annotated[Path | None, typer.Option(help="Folder for accounts and conversations.")] = None,
-    no_open: Annotated[bool, typer.Option("--no-open", help="Do not open the page in a browser.")] = False,
-    port: Annotated[
-        int | None, typer.Option(min=0, max=65535, help=f"Port of the page; default: {PORT}, or a free one.")
-    ] = None,
-    lan: Annotated[
-        bool, typer.Option("--lan", help="Let phones in this network in: HTTPS, with a code to sign in.")
-    ] = False,
-    password_file: Annotated[
-        Path | None, typer.Option(help="File with a password to sign in with, here too.")
-    ] = None,
+    no_open: NoOpenOption = False,
+    port: PortOption = None,
+    lan: LanOption = False,
+    password_file: PasswordFileOption = None,
     verbose: Annotated[bool, typer.Option("--verbose", help="Show the log.")] = False,
 ) -> None:
     """Serve the page for the robots of another process or machine."""

@@ -8,7 +8,7 @@ import shlex
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import typer
 
@@ -19,9 +19,23 @@ from parley.messages.principal import ROLES, Role
 if TYPE_CHECKING:
     from parley.web.server import WebServer
 
-__all__ = ["PORT", "app", "page_settings", "serve_until_interrupted"]
+__all__ = [
+    "PORT", "LanOption", "NoOpenOption", "PasswordFileOption", "PortOption", "app", "page_settings",
+    "serve_until_interrupted",
+]  # fmt: skip
 
 PORT: Final = 8400
+
+NoOpenOption = Annotated[bool, typer.Option("--no-open", help="Do not open the page in a browser.")]
+PortOption = Annotated[
+    int | None, typer.Option(min=0, max=65535, help=f"Port of the page; default: {PORT}, or a free one.")
+]
+LanOption = Annotated[
+    bool, typer.Option("--lan", help="Let phones in this network in: HTTPS, with a code to sign in.")
+]
+PasswordFileOption = Annotated[
+    Path | None, typer.Option(help="File with a password to sign in with, here too.")
+]
 
 app = typer.Typer(help="The page for operators.", no_args_is_help=True)
 

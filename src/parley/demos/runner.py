@@ -339,6 +339,4 @@ def _is_in(part: str, text: str) -> bool:
 def _distance_m(system: System, robot: str, thing: MapObject) -> float:
     """From the robot's middle to the object's bounding box."""
     pose = system.robots[robot].pose()
-    dx = max(abs(pose.x_m - thing.x_m) - thing.width_m / 2, 0.0)
-    dy = max(abs(pose.y_m - thing.y_m) - thing.height_m / 2, 0.0)
-    return float((dx * dx + dy * dy) ** 0.5)
+    return thing.gap_m(pose.x_m, pose.y_m)

@@ -14,6 +14,7 @@ with a `name` and its `corners`, for people to see on the map and to send robots
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Any, Final, Self
 
@@ -48,6 +49,12 @@ class MapObject:
     """A room as a goal: one stands in it, not before it."""
     found: bool = False
     """Whether a robot saw it there, and no map said so."""
+
+    def gap_m(self, x_m: float, y_m: float) -> float:
+        """From a point to its outline; 0 inside."""
+        beside = max(abs(self.x_m - x_m) - self.width_m / 2, 0.0)
+        along = max(abs(self.y_m - y_m) - self.height_m / 2, 0.0)
+        return math.hypot(beside, along)
 
 
 @dataclass(frozen=True, slots=True)

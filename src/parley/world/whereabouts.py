@@ -77,17 +77,7 @@ def standing(thing: Footprint, place: Place) -> Standing:
 
 def nearest(x_m: float, y_m: float, objects: Iterable[MapObject]) -> MapObject | None:
     """The thing of the map by which a point is, if one is near enough to say so; first what holds it."""
-    gaps = [
-        (
-            math.hypot(
-                max(abs(item.x_m - x_m) - item.width_m / 2, 0.0),
-                max(abs(item.y_m - y_m) - item.height_m / 2, 0.0),
-            ),
-            math.hypot(item.x_m - x_m, item.y_m - y_m),
-            item,
-        )
-        for item in objects
-    ]
+    gaps = [(item.gap_m(x_m, y_m), math.hypot(item.x_m - x_m, item.y_m - y_m), item) for item in objects]
     gap_m, _, found = min(gaps, key=lambda one: one[:2], default=(math.inf, math.inf, None))
     return found if gap_m <= NEAR_M else None
 

@@ -252,9 +252,9 @@ class ChatInterface(Node):
 
     def _says_no(self, message: str, control: Control | None) -> bool:
         """Whether somebody says no in any words that are not a control word or about an older message."""
-        if control is not None or texts.is_never_mind(message):
-            return is_no(message)
-        return is_no(message) or assent_of(message, self._presence.names()) is False
+        in_other_words = control is None and not texts.is_never_mind(message)
+        refuses = in_other_words and assent_of(message, self._presence.names()) is False
+        return refuses or is_no(message)
 
     def _refuses(self, target: str, said: ChatInput) -> bool:
         """Whether "leave it" is a no to what the robot asked last, not a step that is to be left out."""

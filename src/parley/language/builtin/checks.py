@@ -9,7 +9,7 @@ from parley.language.builtin.decision import Ask, Deed
 from parley.language.builtin.facts import Place, known_place
 from parley.language.builtin.grounding import Value
 from parley.language.builtin.lexicon import stems
-from parley.language.builtin.saying import with_article
+from parley.language.builtin.saying import which_one, with_article
 from parley.language.builtin.sets import group
 from parley.language.builtin.things import link
 from parley.language.builtin.tokens import tokenize
@@ -248,7 +248,7 @@ def _one_called(
     if len(same) < 2:
         return Value(item.description, with_article(item.description), (item,))
     called = tuple(dict.fromkeys(other.description for other in same))[:6]
-    return Ask(f"Which one do you mean: {' or '.join(with_article(name) for name in called)}?", called)
+    return Ask(which_one(called), called)
 
 
 def _named(words: Sequence[str], objects: Sequence[MapObject]) -> list[tuple[int, MapObject]]:
@@ -304,5 +304,5 @@ def _by_noun(builder: Ways, words: Sequence[str]) -> Value | Ask | None:
             return Value(item.description, with_article(item.description), (item,))
         if mention is not None and mention.kind == "several":
             names = tuple(dict.fromkeys(thing.description for thing in mention.things))[:6]
-            return Ask(f"Which one do you mean: {' or '.join(with_article(name) for name in names)}?", names)
+            return Ask(which_one(names), names)
     return None

@@ -16,6 +16,7 @@ from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.listings import listing
 from parley.language.builtin.planner import Planner, contradicted, orders_of
 from parley.language.builtin.reading import Reading
+from parley.language.builtin.saying import which_one
 from parley.language.builtin.skills import Skills
 from parley.language.builtin.structure import Part, Unclear, arranged
 from parley.language.builtin.tokens import Token, spoken, tokenize
@@ -90,7 +91,7 @@ _SENTENCE = re.compile(r"\w[^.,;:!?]*")
 _BINDING = re.compile(r"\b(?:if|unless|until|when|while|or|because|but|not)\b", re.IGNORECASE)
 
 
-def _beside(message: str, again: policy.Again) -> tuple[Told, ...]:
+def _beside(message: str, again: Again) -> tuple[Told, ...]:
     """The facts of a message that is asked about: whole sentences on which nothing in it depends."""
     pieces = [found[0].strip() for found in _SENTENCE.finditer(message)]
     if len(pieces) == 1 or _BINDING.search(message):
@@ -109,8 +110,7 @@ def _offered(
         return made
     if not amiss and len(names[0].things) > 1:
         which = tuple(thing.description for thing in names[0].things)
-        asked = " or ".join(f"the {name}" for name in which)
-        return Ask(f"Which one do you mean: {asked}?", which)
+        return Ask(which_one(which), which)
     places = [name.things[0] for name in names if len(name.things) == 1]
     if not places:
         return made

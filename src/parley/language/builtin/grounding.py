@@ -11,7 +11,7 @@ from parley.language.builtin.decision import Ask, Deed, Note
 from parley.language.builtin.facts import Place, known_place
 from parley.language.builtin.lexicon import Lexicon, stem, stems
 from parley.language.builtin.listings import told_set
-from parley.language.builtin.saying import as_said, with_article
+from parley.language.builtin.saying import as_said, which_one, with_article
 from parley.language.builtin.sets import Group, group
 from parley.language.builtin.skills import Skills
 from parley.language.builtin.spatial import beside, picked
@@ -293,8 +293,7 @@ class Grounder:
         names = tuple(dict.fromkeys(names))
         if len(names) == 1:
             return Ask(f"There are {count} things called “{names[0]}”. Which one do you mean?")
-        named = [with_article(name) for name in names[:6]]
-        return Ask(f"Which one do you mean: {', '.join(named[:-1])} or {named[-1]}?", tuple(names[:6]))
+        return Ask(which_one(names[:6]), names[:6])
 
     def is_person(self, fillers: Sequence[Filler], value: Value) -> bool:
         """Whether somebody is meant: by a name, by what the map says, or by a word for people."""

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
-__all__ = ["as_said", "counted", "with_article"]
+__all__ = ["as_said", "counted", "which_one", "with_article"]
 
 
 def as_said(words: str, text: str) -> str:
@@ -16,6 +17,12 @@ def as_said(words: str, text: str) -> str:
 def counted(number: int, what: str) -> str:
     """So many of something: "1 step", "2 steps"."""
     return f"{number} {what}" if number == 1 else f"{number} {what}s"
+
+
+def which_one(names: Sequence[str]) -> str:
+    """The question which of several things is meant."""
+    named = [with_article(name) for name in names]
+    return f"Which one do you mean: {', '.join(named[:-1])} or {named[-1]}?"
 
 
 def with_article(text: str) -> str:

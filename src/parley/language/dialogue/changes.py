@@ -14,6 +14,7 @@ from typing import Final, Literal
 
 from parley.language.base import Situation
 from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.saying import which_one
 from parley.language.builtin.tokens import Token
 from parley.language.dialogue.answers import step_words
 from parley.language.dialogue.mentions import Named, named
@@ -324,8 +325,7 @@ def _replaced(plan: Sequence[Visit], against: Sequence[Named], wanted: Named) ->
         return None
     if len(wanted.things) > 1:
         names = tuple(item.description for item in wanted.things)
-        asked = " or ".join(f"the {name}" for name in names)
-        return Change(question=f"Which one do you mean: {asked}?", choices=names)
+        return Change(question=which_one(names), choices=names)
     target = wanted.things[0]
     if any(target in visit.things for visit in plan if visit not in old[:1] or not against):
         asked = f"The {target.description} is in my plan already. Shall I go there first, or leave it out?"

@@ -8,6 +8,7 @@ from typing import Final
 
 from parley.language.base import Situation
 from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.saying import which_one
 from parley.language.builtin.spatial import beside
 from parley.language.builtin.tokens import Token
 from parley.language.dialogue.answers import listed
@@ -81,10 +82,7 @@ def followed(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, la
     which = next((things for things in chosen if len(things) > 1), ())
     if which and not _GOING & {*words}:
         fitting = tuple(thing.description for thing in which)
-        return Change(
-            question=f"Which one do you mean: {listed([f'the {one}' for one in fitting], 'or')}?",
-            choices=fitting,
-        )
+        return Change(question=which_one(fitting), choices=fitting)
     things = [things[0] for things in chosen] or _other(before, words, situation.objects)
     if _GOING & {*words} and (names or _looks(done, situation)):
         return None  # an order of its own

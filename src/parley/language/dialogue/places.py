@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Sequence
 
@@ -18,9 +17,7 @@ _IN_ROOM_M = 2.5
 
 def distance_m(item: MapObject, pose: Pose2D) -> float:
     """From a robot to the outline of a thing."""
-    beside = max(abs(item.x_m - pose.x_m) - item.width_m / 2, 0.0)
-    along = max(abs(item.y_m - pose.y_m) - item.height_m / 2, 0.0)
-    return math.hypot(beside, along)
+    return item.gap_m(pose.x_m, pose.y_m)
 
 
 def room_of(item: MapObject, known: Sequence[str] = ()) -> str:

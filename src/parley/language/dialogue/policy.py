@@ -14,9 +14,10 @@ from parley.language.builtin.lexicon import Lexicon, lemmas
 from parley.language.builtin.own import is_promised
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.reply import said as words_for
+from parley.language.builtin.saying import which_one
 from parley.language.builtin.structure import Part
 from parley.language.builtin.tokens import Token, tokenize
-from parley.language.dialogue.answers import answer, differences, listed
+from parley.language.dialogue.answers import answer, differences
 from parley.language.dialogue.changes import (
     Change,
     before_all,
@@ -44,7 +45,7 @@ from parley.language.dialogue.replies import chosen, is_thinking, names_deed
 from parley.language.dialogue.speaker import Again, answered_place, told_place
 from parley.world.object_map import MapObject
 
-__all__ = ["Again", "afterwards", "beforehand", "no_facts", "only_names", "promised", "spoken_of"]
+__all__ = ["afterwards", "beforehand", "no_facts", "only_names", "promised", "spoken_of"]
 
 
 _SOCIAL: Final = re.compile(
@@ -307,8 +308,7 @@ def _asked_again(
         return None
     if _NONE.fullmatch(plain(tokens, (situation.robot,))):
         return Answer("All right, then I leave it.")
-    names = listed([f"the {name}" for name in asked.choices], "or")
-    return Ask(f"I did not understand that. Which one do you mean: {names}?")
+    return Ask(f"I did not understand that. {which_one(asked.choices)}")
 
 
 _NONE: Final = re.compile(

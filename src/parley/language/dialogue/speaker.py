@@ -10,6 +10,7 @@ from typing import Final, Protocol
 from parley.language.base import Situation
 from parley.language.builtin.decision import Ask, Decision, Do, Remember, Told
 from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.saying import which_one
 from parley.language.builtin.tokens import Token, tokenize
 from parley.language.dialogue.mentions import named
 from parley.language.dialogue.places import rooms
@@ -113,4 +114,4 @@ def _place(words: str, situation: Situation, lexicon: Lexicon) -> str | Ask | No
     if len(things) == 1:
         return things[0].description
     names = tuple(thing.description for thing in things)
-    return Ask(f"Which one do you mean: {', '.join(names[:-1])} or {names[-1]}?", names)
+    return Ask(which_one(names), names)
