@@ -72,12 +72,13 @@ soak: $(VENV)/.dev ## The long tests: ten minutes, or PARLEY_SOAK_S seconds, and
 	@$(MAKE) --no-print-directory page
 	@PARLEY_KILLS=20 PARLEY_COMMAND="$(abspath $(BIN)/parley)" $(NPM) run --silent e2e -- e2e/connection
 
-# Hashes of the wheels for all platforms, without the address of any registry.
-lock: $(VENV)/.dev ## Renew requirements.lock from constraints.txt
+# For every Python and platform, with the hashes of all wheels and without the address of any registry.
+LOCKED := $(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-header --no-annotate \
+    --extra sim --extra web --extra zenoh --group build
+lock: $(VENV)/.dev ## Renew constraints.txt and requirements.lock; LOCK=--upgrade takes newer versions
 	@$(PIP) install --quiet -c constraints.txt --group release
-	@$(BIN)/pip-compile --quiet --generate-hashes --strip-extras --allow-unsafe --build-deps-for editable \
-	    --no-header --no-annotate --extra sim --extra web --extra zenoh -c constraints.txt -o requirements.lock pyproject.toml
-	@sed -i.old '/^--/d; /^$$/d' requirements.lock && rm requirements.lock.old
+	@$(LOCKED) $(LOCK) --group dev --group page --group release -o constraints.txt pyproject.toml
+	@$(LOCKED) $(LOCK) -c constraints.txt -o requirements.lock pyproject.toml
 
 sbom: $(VENV)/.dev frontend/node_modules/.installed ## Lists of what is inside (CycloneDX), into build
 	@$(PIP) install --quiet -c constraints.txt --group release
@@ -86,7 +87,7 @@ sbom: $(VENV)/.dev frontend/node_modules/.installed ## Lists of what is inside (
 	@$(NPM) sbom --sbom-format cyclonedx --package-lock-only --omit dev > build/sbom-page.cdx.json
 
 train: $(VENV)/.runtime ## Train the tagger of the built-in language engine (a large library, and minutes)
-	@$(PIP) install --quiet -c constraints.txt --group train
+	@$(PIP) install --quiet --group train
 	@$(BIN)/python -m parley.language.builtin.training.train
 
 clean: ## Remove everything that was made
@@ -123,12 +124,14 @@ $(VENV)/.pip: $(VENV)/.python
 	@$(PIP) install --quiet --upgrade "pip>=25.1"
 	@touch $@
 
-$(VENV)/.runtime: $(VENV)/.pip pyproject.toml constraints.txt
+$(VENV)/.runtime: $(VENV)/.pip pyproject.toml requirements.lock
 	@echo "Installing Parley and what it needs (about 150 MB, once)"
-	@$(PIP) install --progress-bar off -c constraints.txt -e ".[sim,web]" $(SHOWN)
+	@$(PIP) install --progress-bar off --require-hashes -r requirements.lock $(SHOWN)
+	@$(PIP) install --quiet --no-deps --no-build-isolation -e .
 	@touch $@
 
-$(VENV)/.dev: $(VENV)/.runtime
+$(VENV)/.dev: $(VENV)/.runtime constraints.txt
 	@echo "Installing what its tests and checks need"
-	@$(PIP) install --quiet -c constraints.txt --group dev -e packages/parley-bt
+	@$(PIP) install --quiet -c constraints.txt --group dev
+	@$(PIP) install --quiet --no-deps --no-build-isolation -e packages/parley-bt
 	@touch $@

@@ -238,16 +238,22 @@ def test_every_link_inside_the_documents_leads_somewhere() -> None:
     assert dead == []
 
 
-def test_the_locked_versions_are_those_of_all_that_is_asked_for() -> None:
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+def test_all_that_is_asked_for_is_locked_with_hashes_and_in_one_version() -> None:
+    made_of = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
+    project, groups = made_of["project"], made_of["dependency-groups"]
     extras = project["optional-dependencies"]
-    brought = [item for name in ("sim", "web", "zenoh") for item in extras[name]]
-    asked = {plain(item) for item in (*project["dependencies"], *brought)}
-    pins = re.compile(r"^([\w.-]+)==(\S+)", re.MULTILINE)
-    locked = {plain(name): v for name, v in pins.findall((ROOT / "requirements.lock").read_text("utf-8"))}
-    tested = {plain(name): v for name, v in pins.findall((ROOT / "constraints.txt").read_text("utf-8"))}
-    assert asked - locked.keys() == set()
-    assert {name: version for name, version in locked.items() if tested.get(name, version) != version} == {}
+    asked = {*project["dependencies"], *groups["build"]}.union(*(extras[x] for x in ("sim", "web", "zenoh")))
+    tools = asked.union(*(groups[name] for name in ("dev", "page", "release")))
+    # One text each: a name, its version, and the hashes of all its wheels.
+    pinned = re.compile(
+        r"^([\w.-]+)==(\S+)[^\n]*\\\n(?: +--hash=sha256:[0-9a-f]{64}(?: \\)?\n)+", re.MULTILINE
+    )
+    texts = {name: (ROOT / name).read_text("utf-8") for name in ("requirements.lock", "constraints.txt")}
+    assert {name: pinned.sub("", text) for name, text in texts.items()} == dict.fromkeys(texts, "")
+    locked, tested = ({plain(name): version for name, version in pinned.findall(x)} for x in texts.values())
+    assert {plain(item) for item in asked} - locked.keys() == set()
+    assert {plain(item) for item in tools} - tested.keys() == set()
+    assert locked.items() - tested.items() == set()
 
 
 def plain(requirement: str) -> str:
