@@ -93,4 +93,15 @@ describe.skipIf(!hasBrowser)('rules', () => {
     await page.screenshot({ path: `${PICTURES}/phone.png`, fullPage: true });
     expect(await barriers(page)).toEqual([]);
   });
+
+  it('that are told of a place show it on the map before the yes', async () => {
+    const page = await stage.open(sizes.desktop, '#/');
+    const drawn = page.locator('[data-rule-map] polygon[data-kind=keep_out], polygon[data-wished]');
+    await say(page, 'nobody into the kitchen at night');
+    await expect.poll(() => drawn.count()).toBe(2);
+    await page.screenshot({ path: `${PICTURES}/told.png` });
+    expect(await barriers(page)).toEqual([]);
+    await page.getByRole('button', { name: 'no', exact: true }).first().click();
+    await expect.poll(() => drawn.count()).toBe(0);
+  });
 });

@@ -82,7 +82,7 @@ async def test_of_several_rules_the_one_that_is_chosen_is_dropped() -> None:
             Rule(id=name.replace(" ", "-"), kind="keep_out", name=name, rectangle=(0, 0, 1, 1)), None
         )
     which = await talk.say("drop the rule about the ward")
-    assert which is not None and len(which.choices) == 3
+    assert which is not None and len(which.choices) == 3 and which.rules == ()
     await talk.say(which.choices[1], answers=which.id)
     assert talk.held == ["north-ward"]
     one = await talk.say("kustuta reegel north ward kohta")
@@ -100,6 +100,7 @@ async def test_a_told_rule_counts_after_its_yes_and_robots_stand_till_then() -> 
     talk = Talk(STORE)
     asked = await talk.say("never go into the store, it is wet")
     assert asked is not None and (talk.held, asked.stands) == ([], ("Ada",))
+    assert [rule.corners for rule in asked.rules] == [((4.2, -0.8), (5.8, -0.8), (5.8, 0.8), (4.2, 0.8))]
     assert await talk.say("go to the desk and wait", answers=asked.id) is None, "an order is no answer"
     again = talk.talk.again("Ada")
     assert again is not None and (again.closes, again.text, again.stands) == (asked.id, asked.text, ("Ada",))

@@ -18,7 +18,9 @@ from parley.messages import (
     principal,
     status,
 )
+from parley.messages.rules import Rule
 
+ZONE = Rule(id="r", kind="keep_out", rectangle=(0, 0, 1, 2))
 MOVE: dict[str, Any] = {
     "Move": {
         "input_parameters": {
@@ -172,6 +174,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "closes": "p",
         "reply_to": "1",
         "engine": "builtin",
+        "rules": [ZONE.model_dump(mode="json", by_alias=True)],
     },
     chat.FlowIf: {"step": 2, "result": False},
     chat.Flow: {"if": {"step": 2, "result": True}, "together_with": 1, "repeat": 2},

@@ -57,6 +57,7 @@ export const entry = (part: Partial<ChatEntry> & { id: string }): ChatEntry => (
   message: part.id,
   images: [],
   choices: [],
+  rules: [],
   sources: [],
   engine: '',
   question: '',

@@ -86,6 +86,8 @@ class RuleReply:
     """The question that is settled by it."""
     stands: tuple[str, ...] = ()
     """Robots that stand still while it is open, so that nothing happens that the answer would forbid."""
+    rules: tuple[Rule, ...] = ()
+    """What a yes would make rules."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,7 +163,8 @@ class RuleConfirmations:
         question = uuid.uuid4().hex
         self._waiting[question] = pending
         choices = (*(label for label, _ in pending.choices), sentence("no"))
-        return RuleReply(text or pending.text, question, choices, stands=pending.stands)
+        rules = () if pending.drops else tuple(rule for _, rule in pending.choices)
+        return RuleReply(text or pending.text, question, choices, stands=pending.stands, rules=rules)
 
     def answered(self, question: str, text: str) -> tuple[Rule | None, bool] | None:
         """The rule that was said yes to (None after a no), and whether it is to be dropped; None: unclear."""

@@ -14,6 +14,7 @@ from parley.messages.attendance import Unattended
 from parley.messages.base import ParameterTree, Payload
 from parley.messages.plain import LineText, ShownText
 from parley.messages.principal import Principal
+from parley.messages.rules import Rule
 
 __all__ = [
     "SYSTEM_COMMANDS",
@@ -93,6 +94,8 @@ class ChatFeedback(Payload):
     """Ours: `id` of the operator's message that is answered."""
     engine: LineText = ""
     """Ours: which language engine worded it, where there are several; empty: ourselves, or the only one."""
+    rules: tuple[Rule, ...] = ()
+    """Ours: what a yes would make rules, each for one of the choices; whoever has a map draws them."""
 
 
 class ReplyDraft(Payload):

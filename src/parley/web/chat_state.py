@@ -176,6 +176,7 @@ class ChatBook:
                 type=feedback.type,
                 message=feedback.message,
                 choices=feedback.choices,
+                rules=feedback.rules,
                 sources=feedback.sources,
                 engine=_short(feedback.engine),
                 question="open" if feedback.type == "request" else "",

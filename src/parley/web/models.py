@@ -16,7 +16,7 @@ from parley.messages.audit import AuditChain
 from parley.messages.incident import Incident
 from parley.messages.map import MapView
 from parley.messages.principal import Principal
-from parley.messages.rules import RiskClass
+from parley.messages.rules import RiskClass, Rule
 from parley.messages.status import ActionInfo, PoseInfo
 
 __all__ = [
@@ -112,6 +112,8 @@ class ChatEntry(WebModel):
     images: tuple[str, ...] = ()
     """Addresses of attached pictures, below this server."""
     choices: tuple[str, ...] = ()
+    rules: tuple[Rule, ...] = ()
+    """What a yes would make rules, to be drawn on the map before it."""
     sources: tuple[str, ...] = ()
     """Names of the memories it is founded on."""
     engine: str = ""

@@ -9,6 +9,7 @@ import { clockTime, inWords, nameList } from '@/ui/words';
 
 import { Choices } from './choices';
 import css from './entry.module.css';
+import { RuleMap } from './rule-map';
 
 interface Props {
   entry: ChatEntry;
@@ -72,6 +73,7 @@ function Said({ entry }: { entry: ChatEntry }) {
         {entry.images.map((address) => (
           <img key={address} className={css.image} src={address} alt={t('photo')} loading="lazy" />
         ))}
+        {entry.question === 'open' && entry.rules.length > 0 && <RuleMap robot={entry.targets[0] ?? ''} rules={entry.rules} />}
         {entry.draft && <span className={css.drafting}>{t('drafting')}</span>}
     </>
   );

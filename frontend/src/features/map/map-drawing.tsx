@@ -32,6 +32,8 @@ interface Props {
   showScan: boolean;
   /** Rules that hold for a part of the map. */
   zones: readonly Rule[];
+  /** Rules that wait for a yes. */
+  wished: readonly Rule[];
   /** The corners of an area that is being drawn. */
   drawn: readonly Corner[] | null;
 }
@@ -44,7 +46,7 @@ const DOT_PX = 5;
 const ROOM_LETTER_PX = 9.5;
 
 /** The map as a picture; whoever cannot see it has the list. */
-export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, trails, marked, trials, candidates, showScan, zones, drawn }: Props) {
+export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, trails, marked, trials, candidates, showScan, zones, wished, drawn }: Props) {
   const { x: left, y: top } = toScreen(view, size, { x: 0, y: 0 });
   const { origin, resolution } = map;
   const turned = ((origin.yaw ?? 0) * 180) / Math.PI;
@@ -77,6 +79,9 @@ export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, tr
         ))}
         {zones.map((zone) => (
           <polygon key={zone.id} className={css.zone} data-kind={zone.kind} points={outline(cornersOf(zone)).join(' ')} />
+        ))}
+        {wished.map((zone) => (
+          <polygon key={`wished ${zone.id}`} className={css.zone} data-kind={zone.kind} data-wished points={outline(cornersOf(zone)).join(' ')} />
         ))}
         {rovers.map(({ name, chosen }) => (
           <polyline key={name} className={css.trail} data-chosen={chosen} points={pointsOf(trails[name] ?? [])} />

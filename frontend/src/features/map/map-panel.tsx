@@ -102,13 +102,15 @@ function Ready({ map, mapName, robot, listed, children }: ReadyProps) {
   const [marked, setMarked] = useState<Mark | null>(null);
   const way = useWayTo(robot, marked);
   const proposed = useProposedWay(robot);
-  const question = useAsked().findLast((entry) => entry.targets.includes(robot));
+  const asked = useAsked();
+  const question = asked.findLast((entry) => entry.targets.includes(robot));
   const candidates = useMemo(() => candidatesOf(map, question), [map, question]);
   const trials = useMemo(() => [proposed, way], [proposed, way]);
   const rovers = useRovers(mapName, robot);
   const trails = useTrails(mapName);
   const rules = useRules();
   const zones = useMemo(() => zonesOf(rules, mapName), [rules, mapName]);
+  const wished = useMemo(() => zonesOf(asked.flatMap((entry) => entry.rules), mapName), [asked, mapName]);
   const nameFor = (room: string) => (room ? t('partOf', { room }) : t('anArea'));
   const [area, setArea] = useState<Area | null>(null);
   const onDraw = (corners: readonly Corner[] | null) => setArea(corners && { corners, name: nameFor(roomOf(map, corners)) });
@@ -117,7 +119,7 @@ function Ready({ map, mapName, robot, listed, children }: ReadyProps) {
   return (
     <div className={css.layout}>
       {children}
-      <MapStage map={map} rovers={rovers} trails={trails} zones={zones} marked={marked} trials={trials} candidates={candidates} onMark={setMarked} drawn={drawn} onDraw={onDraw} />
+      <MapStage map={map} rovers={rovers} trails={trails} zones={zones} wished={wished} marked={marked} trials={trials} candidates={candidates} onMark={setMarked} drawn={drawn} onDraw={onDraw} />
       {listed && <MapList map={map} rovers={rovers} onMark={setMarked} />}
       {area ? (
         <DrawBar area={area} mapName={mapName} rules={rules} onDone={() => setArea(null)} />

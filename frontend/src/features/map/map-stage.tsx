@@ -21,6 +21,7 @@ interface Props {
   rovers: readonly Rover[];
   trails: Trails;
   zones: readonly Rule[];
+  wished: readonly Rule[];
   marked: Mark | null;
   trials: readonly Way[];
   candidates: Candidates;
@@ -34,7 +35,7 @@ const ZOOM_STEP = 1.4;
 const FINGER_PX = 14;
 
 /** The map to look at, move, zoom and point at. */
-export function MapStage({ map, rovers, trails, zones, marked, trials, candidates, onMark, drawn, onDraw }: Props) {
+export function MapStage({ map, rovers, trails, zones, wished, marked, trials, candidates, onMark, drawn, onDraw }: Props) {
   const { t } = useTranslation('map');
   const [follow, setFollow] = useState(false);
   const [showScan, setShowScan] = useState(false);
@@ -70,7 +71,7 @@ export function MapStage({ map, rovers, trails, zones, marked, trials, candidate
         tabIndex={0}
         {...handlers}
       >
-        <MapDrawing map={map} view={view} size={size} rovers={rovers} trails={trails} marked={marked} trials={trials} candidates={candidates} showScan={showScan} zones={zones} drawn={dragged ?? drawn} />
+        <MapDrawing map={map} view={view} size={size} rovers={rovers} trails={trails} marked={marked} trials={trials} candidates={candidates} showScan={showScan} zones={zones} wished={wished} drawn={dragged ?? drawn} />
         <span className={css.cross}>
           <Icon name="target" size={28} />
         </span>

@@ -11,9 +11,9 @@ import { TextField } from '@/ui/text-field';
 import { inWords } from '@/ui/words';
 
 import { around, idFor, readCorners, writeCorners } from '@/ui/corners';
+import { ZoneMap } from '@/ui/zone-map';
 import { days, draftOf, isLimited, isZone, kinds, ruleOf, type Day, type Draft } from './draft';
 import css from './rules.module.css';
-import { ZoneMap } from './zone-map';
 
 interface Props {
   rule: Rule | null;

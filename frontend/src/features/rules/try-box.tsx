@@ -7,9 +7,9 @@ import { attempt } from '@/state/do';
 import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
 import { TextField } from '@/ui/text-field';
+import { ZoneMap } from '@/ui/zone-map';
 
 import css from './rules.module.css';
-import { ZoneMap } from './zone-map';
 
 interface Props {
   robot: string;

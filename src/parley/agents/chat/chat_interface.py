@@ -319,7 +319,7 @@ class ChatInterface(Node):
         feedback = ChatFeedback(
             message=self.spoken(reply.text), targets=(target,), type="request" if reply.id else "response",
             choices=tuple(map(self.spoken, reply.choices)), id=reply.id, closes=reply.closes,
-            reply_to=reply_to,
+            reply_to=reply_to, rules=reply.rules,
         )  # fmt: skip
         if reply.stands:
             self._holds.begin_for(reply.id, said, reply.stands)

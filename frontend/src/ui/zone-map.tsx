@@ -1,10 +1,10 @@
 import { useRef, useState, type PointerEvent } from 'react';
 
 import type { MapInfo, Rule } from '@/live/types';
-import { bounds } from '@/ui/map-bounds';
 
-import { cornersOf, outline, type Corner } from '@/ui/corners';
-import css from './rules.module.css';
+import { cornersOf, outline, type Corner } from './corners';
+import { bounds } from './map-bounds';
+import css from './zone-map.module.css';
 
 interface Props {
   map: MapInfo;
