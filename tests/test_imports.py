@@ -185,9 +185,9 @@ def module_name(path: Path) -> str:
 
 
 def loaded_by(path: Path, modules: set[str]) -> set[str]:
-    """The modules that importing this one loads first: those it names at its top, and their packages."""
+    """The modules that this one names anywhere, for their types too, and the packages of these."""
     found: set[str] = set()
-    for node in ast.parse(path.read_text(encoding="utf-8")).body:
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):

@@ -12,6 +12,7 @@ from parley.language.builtin.answers import answer, look_asked_for
 from parley.language.builtin.decision import Answer, Ask, Control, Decision, Do, Remember, Told
 from parley.language.builtin.deeds import Builder
 from parley.language.builtin.facts import places, rule_of, told_of
+from parley.language.builtin.fillers import Filler
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.listings import listing
 from parley.language.builtin.planner import Planner, contradicted, orders_of
@@ -20,7 +21,7 @@ from parley.language.builtin.saying import which_one
 from parley.language.builtin.skills import Skills
 from parley.language.builtin.structure import Part, Unclear, arranged
 from parley.language.builtin.tokens import Token, spoken, tokenize
-from parley.language.builtin.wishes import Filler, Wish
+from parley.language.builtin.wishes import Wish
 from parley.language.control import control_of
 from parley.language.dialogue import policy
 from parley.language.dialogue.facts import is_report

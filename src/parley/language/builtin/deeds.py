@@ -7,9 +7,10 @@ from dataclasses import dataclass, replace
 from parley.language.builtin.amounts import Amount, amount_of
 from parley.language.builtin.checks import Look, check
 from parley.language.builtin.decision import Ask, Deed
+from parley.language.builtin.fillers import Filler
 from parley.language.builtin.grounding import Value
 from parley.language.builtin.lexicon import stem
-from parley.language.builtin.own import OwnAction
+from parley.language.builtin.own_action import OwnAction
 from parley.language.builtin.owned import owned
 from parley.language.builtin.saying import with_article
 from parley.language.builtin.skills import Skill
@@ -17,7 +18,7 @@ from parley.language.builtin.speaking import followed, spoken
 from parley.language.builtin.structure import Part
 from parley.language.builtin.things import Mention, head_of, link
 from parley.language.builtin.ways import Ways, typed
-from parley.language.builtin.wishes import Filler, Wish
+from parley.language.builtin.wishes import Wish
 from parley.messages.status import Kind
 from parley.umrf.kinds import is_word_for, parameters_of
 from parley.world.object_map import MapObject

@@ -9,6 +9,7 @@ from parley.language.base import Situation
 from parley.language.builtin.amounts import Amount, amount_of, direction_of
 from parley.language.builtin.decision import Ask, Deed, Note
 from parley.language.builtin.facts import Place, known_place
+from parley.language.builtin.fillers import Filler
 from parley.language.builtin.lexicon import Lexicon, stem, stems
 from parley.language.builtin.listings import told_set
 from parley.language.builtin.saying import as_said, which_one, with_article
@@ -17,7 +18,7 @@ from parley.language.builtin.skills import Skills
 from parley.language.builtin.spatial import beside, picked
 from parley.language.builtin.things import Mention, link, noun_phrase
 from parley.language.builtin.tokens import Token, point_of, tokenize
-from parley.language.builtin.wishes import Filler, Wish
+from parley.language.builtin.wishes import Wish
 from parley.language.dialogue.mentions import named
 from parley.language.dialogue.places import distance_m, in_room
 from parley.language.dialogue.speaker import name_of

@@ -17,19 +17,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parley.language.builtin.amounts import Amount
-from parley.language.builtin.filling import Fill, Filling, Slots, fill, filled_by
+from parley.language.builtin.filling import Filling, Slots, fill, filled_by
 from parley.language.builtin.lexicon import Lexicon, lemmas, stem
 from parley.language.builtin.orders import Clause, clauses_of
+from parley.language.builtin.own_action import OwnAction
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.spans import Parse
 from parley.language.builtin.tagger import Matrix, Tagger
 from parley.language.builtin.tokens import tokenize
-from parley.language.builtin.wishes import Filler, Wish
+from parley.language.builtin.wishes import Wish
 from parley.messages.status import ActionInfo
 from parley.umrf.kinds import parameters_of, words_of_name
 
-__all__ = ["OwnAction", "OwnActions", "is_promised"]
+__all__ = ["OwnActions", "is_promised"]
 
 _NEAR = 0.25
 """Less alike in meaning is no match, whatever the words."""
@@ -46,36 +46,6 @@ _OFFERED = 0.5
 _KEPT = 64
 _TEXTS = 2000
 _LOGIC = frozenset("CUWE")
-
-
-@dataclass(frozen=True, slots=True)
-class OwnAction:
-    """An action that an order means, with what it says for each input."""
-
-    action: ActionInfo
-    fills: tuple[Fill, ...]
-    slots: Slots
-    certain: bool
-    """Whether it is done without asking."""
-    missing: tuple[str, ...] = ()
-    """Inputs that are needed and were not said."""
-
-    @property
-    def label(self) -> str:
-        """What it does, in words of its maker; those of its name where there are no others."""
-        first = self.action.description.partition(". ")[0].rstrip(".").partition(";")[0].partition(":")[0]
-        text = first if " " in first else " ".join(words_of_name(self.action.name))
-        return text[:1].lower() + text[1:]
-
-    def done(self, times: int) -> OwnAction | None:
-        """The same so many times, if it has an input for that."""
-        name = self.slots.counting
-        if not name or name in {fill.name for fill in self.fills}:
-            return None
-        said = Filler("O", -1, -1, 0, (str(times), "times"))
-        often = Fill(name, self.slots.parameters[name], said, Amount(times, ""))
-        missing = tuple(other for other in self.missing if other != name)
-        return replace(self, fills=(*self.fills, often), missing=missing)
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from parley.language.builtin.amounts import amount_of, direction_of
+from parley.language.builtin.fillers import Filler
 from parley.language.builtin.lexicon import Lexicon, lemmas
 from parley.language.builtin.retyping import retyped
 from parley.language.builtin.spans import Parse, Span, Verb
-from parley.language.builtin.wishes import Filler, Wish, Witness
+from parley.language.builtin.wishes import Wish, Witness
 
 __all__ = ["Reading", "read"]
 

@@ -3,34 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
-if TYPE_CHECKING:
-    from parley.language.builtin.own import OwnAction
+from parley.language.builtin.fillers import Filler
+from parley.language.builtin.own_action import OwnAction
 
-__all__ = ["Filler", "Wish", "Witness"]
+__all__ = ["Wish", "Witness"]
 
 Witness = Literal["agrees", "unknown", "differs"]
-
-
-@dataclass(frozen=True, slots=True)
-class Filler:
-    """What fills a role: words of the message, by their places."""
-
-    role: str
-    start: int
-    end: int
-    head: int
-    words: tuple[str, ...]
-    """From start to end, in small letters."""
-    share: float = 1.0
-    said: str = ""
-    """As it was said."""
-
-    @property
-    def text(self) -> str:
-        """Its words, as they were said."""
-        return self.said or " ".join(self.words)
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable
-from typing import TYPE_CHECKING, Any, Final, Generic, TypeVar
+from typing import Any, Final, Generic, Protocol, TypeVar
 
 import structlog
 import zenoh
@@ -17,12 +17,10 @@ from parley.transport.zenoh.cdr import Codec
 from parley.transport.zenoh.keys import Attachment
 from parley.transport.zenoh.lane import Lane, Outbox
 
-if TYPE_CHECKING:
-    from parley.transport.zenoh.transport import ZenohTransport
-
-__all__ = ["ZenohPublisher", "ZenohServer", "ZenohSubscription"]
+__all__ = ["Declared", "Holder", "ZenohPublisher", "ZenohServer", "ZenohSubscription"]
 
 M = TypeVar("M")
+T = TypeVar("T")
 
 log = structlog.get_logger(__name__)
 
@@ -30,12 +28,46 @@ SENDERS_KNOWN: Final = 256
 """Of how many publishers a subscription knows what number comes next; of more the oldest are forgotten."""
 
 
+class Declared(Protocol):
+    """What others see until it is taken away."""
+
+    def undeclare(self) -> None:
+        """Take it away."""
+
+
+class Holder(Protocol):
+    """What ends ask of the transport that opened them."""
+
+    async def ask(self, job: Callable[[], T]) -> T:
+        """Have something done that may wait for the network."""
+        ...
+
+    def send(self, job: Callable[[], object]) -> None:
+        """Have an answer sent."""
+
+    def keep(self, task: asyncio.Task[Any]) -> None:
+        """A call is being answered; it ends with the transport at the latest."""
+
+    def count_failure(self) -> None:
+        """A handler raised."""
+
+    def stamps(self, whose: str) -> Callable[[], bytes]:
+        """What goes with each message of one end, numbered from 1."""
+        ...
+
+    def closed(self, token: str) -> None:
+        """An end is closed for this process; `take_away` tells others."""
+
+    def take_away(self, token: str, end: Declared) -> None:
+        """Tell others that an end is closed. Not on the loop."""
+
+
 class ZenohPublisher(Generic[M]):
     """See `parley.transport.base.Publisher`."""
 
     def __init__(
         self,
-        transport: ZenohTransport,
+        transport: Holder,
         topic: Topic[M],
         codec: Codec[M],
         lane: Lane,
@@ -95,7 +127,7 @@ class ZenohSubscription(Inbox[M]):
     """See `parley.transport.base.Subscription`."""
 
     def __init__(
-        self, transport: ZenohTransport, topic: Topic[M], codec: Codec[M], token: str, inbox: dict[str, Any]
+        self, transport: Holder, topic: Topic[M], codec: Codec[M], token: str, inbox: dict[str, Any]
     ) -> None:
         super().__init__(topic, on_failure=transport.count_failure, **inbox)
         self._transport, self._codec, self.token = transport, codec, token
@@ -145,7 +177,7 @@ class ZenohServer:
 
     def __init__(
         self,
-        transport: ZenohTransport,
+        transport: Holder,
         name: str,
         answer: Callable[[bytes], Awaitable[bytes]],
         key: str,

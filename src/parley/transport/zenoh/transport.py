@@ -26,7 +26,7 @@ from parley.transport.actions import CallingActionClient
 from parley.transport.base import Endpoint, Handler, Subscription, absolute
 from parley.transport.zenoh.cdr import Codec
 from parley.transport.zenoh.definitions import Definitions
-from parley.transport.zenoh.ends import ZenohPublisher, ZenohServer, ZenohSubscription
+from parley.transport.zenoh.ends import Declared, ZenohPublisher, ZenohServer, ZenohSubscription
 from parley.transport.zenoh.graph import Graph
 from parley.transport.zenoh.keys import Attachment, Node, all_tokens, gid_of, key
 from parley.transport.zenoh.lane import Lane
@@ -41,13 +41,6 @@ Res = TypeVar("Res")
 Goal = TypeVar("Goal")
 Result = TypeVar("Result")
 Feedback = TypeVar("Feedback")
-_Declared = (
-    zenoh.Publisher
-    | zenoh.Subscriber[None]
-    | zenoh.Queryable[None]
-    | ext.AdvancedPublisher
-    | ext.AdvancedSubscriber[None]
-)
 _End = ZenohPublisher[Any] | ZenohSubscription[Any] | ZenohServer
 
 CLOSING_S: Final = 5.0
@@ -251,37 +244,37 @@ class ZenohTransport:
         """See `Transport.on_endpoints_changed`."""
         return self._graph.on_changed(handler)
 
-    # What its ends ask of it
+    # `Holder`: what its ends ask of it
 
     async def ask(self, job: Callable[[], T]) -> T:
-        """Have something done that may wait for the network."""
+        """See `Holder.ask`."""
         return await self._calls.ask(job)
 
     def send(self, job: Callable[[], object]) -> None:
-        """Have an answer sent."""
+        """See `Holder.send`."""
         self._calls.do(job)
 
     def keep(self, task: asyncio.Task[Any]) -> None:
-        """A call is being answered; it ends with the transport at the latest."""
+        """See `Holder.keep`."""
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 
     def count_failure(self) -> None:
-        """A handler raised."""
+        """See `Holder.count_failure`."""
         self.handler_failures += 1
 
     def stamps(self, whose: str) -> Callable[[], bytes]:
-        """What goes with each message of one end, numbered from 1."""
+        """See `Holder.stamps`."""
         numbers, gid = itertools.count(1), gid_of(whose)
         return lambda: Attachment(next(numbers), self._clock.unix_ms() * 1_000_000, gid).to_bytes()
 
     def closed(self, token: str) -> None:
-        """An end is closed for this process; `take_away` tells others."""
+        """See `Holder.closed`."""
         self._ends.pop(token, None)
         self._graph.remove_own(token)
 
-    def take_away(self, token: str, end: _Declared) -> None:
-        """Tell others that an end is closed. Not on the loop."""
+    def take_away(self, token: str, end: Declared) -> None:
+        """See `Holder.take_away`."""
         shown = self._tokens.pop(token, None)
         if shown is not None:
             shown.undeclare()
