@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -47,6 +48,14 @@ def test_it_turns_on_the_spot_towards_what_lies_aside(side: float) -> None:
     chosen = choose_velocity(Velocity(), (0.0, side), NOTHING, LIMITS, CYCLE_S)
     assert chosen.linear_mps == 0.0
     assert math.copysign(1.0, chosen.angular_radps) == side
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_an_omnidirectional_base_goes_aside_at_once_and_turns_meanwhile(side: float) -> None:
+    able = replace(LIMITS, max_lateral_mps=0.2)
+    chosen = choose_velocity(Velocity(), (0.3, side), NOTHING, able, CYCLE_S)
+    assert math.copysign(1.0, chosen.lateral_mps) == math.copysign(1.0, chosen.angular_radps) == side
+    assert 0.0 < abs(chosen.lateral_mps) <= 0.05 + 1e-9  # what it can reach within a cycle
 
 
 def test_it_slows_down_before_the_target() -> None:

@@ -110,7 +110,7 @@ async def test_commanded_velocities_do_not_lead_inside_whoever_commands_them(tur
     async with run(wall) as it:
         for _ in range(200):
             it.robot.drive(Velocity(1.0, turn))
-            it.simulator.command("A", 1.0, turn)
+            it.simulator.command("A", Velocity(1.0, turn))
             await it.simulator.clock.sleep(0.05)
     assert max(it.depths) <= 0
     assert max(it.speeds) > 0.1

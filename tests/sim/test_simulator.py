@@ -13,6 +13,7 @@ from parley.clock import SimClock
 from parley.errors import FileFormatError
 from parley.sim.simulator import COMMAND_LIFETIME_S, Simulator
 from parley.sim.world_file import WorldFile
+from parley.world.geometry import Velocity
 from tests.sim.worlds import box, two_rooms
 
 
@@ -31,16 +32,33 @@ async def drive(simulator: Simulator, seconds: float, linear: float, angular: fl
     """Repeat a command for a while, as a controller does."""
     end_s = simulator.clock.now_s() + seconds
     while simulator.clock.now_s() < end_s - 1e-6:
-        simulator.command("A", linear, angular)
+        simulator.command("A", Velocity(linear, angular))
         await simulator.clock.sleep(0.1)
 
 
 async def test_a_commanded_robot_moves_at_that_speed(simulator: Simulator) -> None:
     await drive(simulator, 2.0, 0.2, 0.0)
-    assert simulator.velocity("A")[0] == pytest.approx(0.2, abs=0.01)
+    assert simulator.velocity("A").linear_mps == pytest.approx(0.2, abs=0.01)
     before = simulator.pose("A")
     await drive(simulator, 2.0, 0.2, 0.0)
     assert simulator.pose("A").distance_to(before) == pytest.approx(0.4, abs=0.01)
+
+
+@pytest.mark.parametrize(("able_mps", "gone_m"), [(0.0, 0.0), (0.1, 0.2)])
+async def test_only_an_omnidirectional_base_goes_aside(
+    clock: SimClock, able_mps: float, gone_m: float
+) -> None:
+    world = two_rooms()
+    robot = world.robot("A")
+    able = robot.model_copy(update={"model": robot.model.model_copy(update={"max_lateral_mps": able_mps})})
+    async with Simulator(world.model_copy(update={"robots": (able,)}), clock=clock, speed=None) as simulator:
+        start = simulator.pose("A")
+        for _ in range(20):
+            simulator.command("A", Velocity(lateral_mps=0.2))
+            await clock.sleep(0.1)
+        end = simulator.pose("A")
+    aside = math.cos(start.yaw_rad) * (end.y_m - start.y_m) - math.sin(start.yaw_rad) * (end.x_m - start.x_m)
+    assert aside == pytest.approx(gone_m, abs=0.02)
 
 
 async def test_turning_is_counter_clockwise(simulator: Simulator) -> None:
@@ -59,7 +77,7 @@ async def test_an_arc_is_driven_without_slipping_sideways(simulator: Simulator) 
 
 async def test_commands_beyond_its_limits_are_cut(simulator: Simulator) -> None:
     await drive(simulator, 2.0, 9.0, 0.0)
-    assert simulator.velocity("A")[0] <= simulator.model("A").max_speed_mps + 1e-3
+    assert simulator.velocity("A").linear_mps <= simulator.model("A").max_speed_mps + 1e-3
 
 
 async def test_a_robot_whose_controller_died_stops(simulator: Simulator) -> None:
@@ -113,7 +131,7 @@ async def test_time_stands_still_while_nobody_waits_and_nothing_moves(
     before_s = clock.now_s()
     await asyncio.sleep(0.02)
     assert clock.now_s() == before_s
-    simulator.command("A", 0.2, 0.0)
+    simulator.command("A", Velocity(0.2))
     await asyncio.sleep(0.02)
     assert clock.now_s() > before_s
 

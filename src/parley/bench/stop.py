@@ -33,7 +33,7 @@ from parley.robots.simulated import SimulatedRobot
 from parley.sim.world_file import WorldFile
 from parley.system import System
 from parley.umrf.action import action
-from parley.world.geometry import Pose2D
+from parley.world.geometry import Pose2D, Velocity
 
 __all__ = ["CONDITIONS", "WAYS", "StopFigures", "measure_stop"]
 
@@ -184,7 +184,7 @@ class _Scene:
             wait(0.1)
         began_s = time.perf_counter()
         stop()
-        while simulator.commanded(_ROBOT) != (0.0, 0.0) and time.perf_counter() - began_s < PATIENCE_S:
+        while simulator.commanded(_ROBOT) != Velocity() and time.perf_counter() - began_s < PATIENCE_S:
             wait(_LOOK_S)
         drive_s = time.perf_counter() - began_s
         while abs(self.robot.velocity().linear_mps) > REST_LINEAR_MPS:

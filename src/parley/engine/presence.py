@@ -28,7 +28,7 @@ State = Literal["idle", "running", "paused", "stopped", "leaving"]
 def is_at_rest(robot: Robot) -> bool:
     """Whether the measured velocity is zero."""
     velocity = robot.velocity()
-    return abs(velocity.linear_mps) <= REST_LINEAR_MPS and abs(velocity.angular_radps) <= REST_ANGULAR_RADPS
+    return velocity.speed_mps <= REST_LINEAR_MPS and abs(velocity.angular_radps) <= REST_ANGULAR_RADPS
 
 
 class Presence:

@@ -7,6 +7,7 @@ as they are at that moment.
 from __future__ import annotations
 
 import math
+from itertools import product
 from typing import Final
 
 import numpy as np
@@ -18,7 +19,7 @@ from parley.gate.ways import with_walls
 from parley.gate.wording import hours_text, zone_text
 from parley.messages.rules import Rule
 from parley.sentences import sentence
-from parley.world.geometry import Pose2D
+from parley.world.geometry import Pose2D, Velocity
 from parley.world.occupancy import OccupancyMap
 from parley.world.planning import NoPathError, plan_path
 
@@ -29,6 +30,7 @@ _REACTION_S: Final = 0.12
 _MARGIN_M: Final = 0.02
 _TURN_OUT_M: Final = 0.08
 _SAMPLES: Final = 8
+_TURNS: Final = 5
 _SHARES: Final = (1.0, 0.75, 0.5, 0.25, 0.1)
 _STILL_MPS: Final = 1e-3
 _TOLERANCE_M: Final = 1e-9
@@ -45,7 +47,7 @@ class Fence:
     """
 
     def __init__(self, book: RuleBook, robot: str, *, braking_mps2: float) -> None:
-        self._book, self._robot, self._braking = book, robot, braking_mps2
+        self._book, self._robot, self._braking_mps2 = book, robot, braking_mps2
         self._inside: dict[tuple[str, int], float] = {}
 
     @property
@@ -93,38 +95,34 @@ class Fence:
                 return Finding(-1, rule.id, "zone_on_way", said)
         return None
 
-    def limit(
-        self, pose: Pose2D, measured: tuple[float, float], command: tuple[float, float]
-    ) -> tuple[float, float]:
+    def limit(self, pose: Pose2D, measured: Velocity, command: Velocity) -> Velocity:
         """What of a command may take effect.
 
         Args:
             pose: Where the robot is.
-            measured: Its speed (m/s, forward) and turning rate (rad/s) as they are.
-            command: Those that are commanded.
+            measured: How it moves.
+            command: How it is told to move.
 
         Returns:
             The same, slower, or turning on the spot: a round robot always may.
         """
-        speed, turn = command
         rules = [
             rule for rule in self._book.active(self._robot) if rule.kind in ("keep_out", "slow", "speed")
         ]
-        if not rules or abs(speed) < _STILL_MPS:
+        if not rules or max(command.speed_mps, measured.speed_mps) < _STILL_MPS:
             return command
-        speed = math.copysign(min(abs(speed), self._fastest(rules, pose, measured, command)), speed)
+        fastest = self._fastest(rules, self._points_ahead(pose, measured, command))
+        command = command.slower(min(1.0, fastest / max(command.speed_mps, _STILL_MPS)))
         closed = [(self._book.shape(rule), self._nearest_m(rule, pose)) for rule in rules if _closes(rule)]
-        for share in _SHARES:
-            points = self._points_ahead(pose, measured, (share * speed, turn))
+        turning = Velocity(0.0, command.angular_radps)
+        for allowed in (*(command.slower(share) for share in _SHARES), turning):
+            points = self._points_ahead(pose, measured, allowed)
             if all((shape.distance_m(points) >= keep_m).all() for shape, keep_m in closed):
-                return share * speed, turn
-        return 0.0, turn
+                return allowed
+        return turning if measured.speed_mps < _STILL_MPS else Velocity()
 
-    def _fastest(
-        self, rules: list[Rule], pose: Pose2D, measured: tuple[float, float], command: tuple[float, float]
-    ) -> float:
+    def _fastest(self, rules: list[Rule], points: NDArray[np.float64]) -> float:
         """The least of the speeds allowed where it is and where it will be before it could stand."""
-        points = self._points_ahead(pose, measured, command)
         fastest = math.inf
         for rule in rules:
             if rule.max_speed_mps is None:
@@ -136,21 +134,31 @@ class Fence:
                 fastest = min(fastest, rule.max_speed_mps)
         return fastest
 
-    def _points_ahead(
-        self, pose: Pose2D, measured: tuple[float, float], command: tuple[float, float]
-    ) -> NDArray[np.float64]:
+    def _points_ahead(self, pose: Pose2D, measured: Velocity, command: Velocity) -> NDArray[np.float64]:
         """Where the robot may be until it stands, if it is told to stop after this; shape (n, 2)."""
-        speed, turn = command
-        now = measured[0] if measured[0] * speed > 0 else 0.0
-        fastest = max(abs(speed), abs(now))
-        reach = fastest * _REACTION_S + fastest**2 / (2.0 * self._braking)
-        along = np.linspace(0.0, reach, _SAMPLES + 1)
-        bends = np.array([0.0, turn / fastest, measured[1] / fastest])
-        half = bends[:, None] * along / 2.0
-        chord = along * np.sinc(half / math.pi) * math.copysign(1.0, speed)
-        heading = pose.yaw_rad + half * math.copysign(1.0, speed)
-        x, y = pose.x_m + chord * np.cos(heading), pose.y_m + chord * np.sin(heading)
-        return np.stack([x.ravel(), y.ravel()], axis=1)
+        # A drive takes its time for a turn too: any rate from none to those may be the one it brakes with.
+        rates = (0.0, command.angular_radps, measured.angular_radps)
+        turns = np.unique(np.linspace(min(rates), max(rates), _TURNS))
+        forward = {_faster(measured.linear_mps, command.linear_mps), measured.linear_mps}
+        left = {_faster(measured.lateral_mps, command.lateral_mps), measured.lateral_mps}
+        # Each axis comes to what it is told in its own time, so the ways in between count too.
+        return np.concatenate([self._braking(pose, x, y, turns) for x, y in product(forward, left)])
+
+    def _braking(
+        self, pose: Pose2D, forward_mps: float, left_mps: float, turns: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """The ways to standing still from a velocity, one for each turning rate; shape (n, 2)."""
+        until_s = _REACTION_S + max(abs(forward_mps), abs(left_mps)) / self._braking_mps2
+        step_s = until_s / _SAMPLES
+        moments = (np.arange(_SAMPLES) + 0.5) * step_s
+        slower = self._braking_mps2 * np.maximum(0.0, moments - _REACTION_S)
+        ahead = np.sign(forward_mps) * np.maximum(0.0, abs(forward_mps) - slower) * step_s
+        aside = np.sign(left_mps) * np.maximum(0.0, abs(left_mps) - slower) * step_s
+        yaw = pose.yaw_rad + turns[:, None] * moments
+        x = pose.x_m + np.cumsum(ahead * np.cos(yaw) - aside * np.sin(yaw), axis=1)
+        y = pose.y_m + np.cumsum(ahead * np.sin(yaw) + aside * np.cos(yaw), axis=1)
+        here = [[pose.x_m, pose.y_m]]
+        return np.concatenate([here, np.stack([x.ravel(), y.ravel()], axis=1)])
 
     def _nearest_m(self, rule: Rule, pose: Pose2D) -> float:
         """How near its middle may come to a zone's border, negative inside.
@@ -165,6 +173,11 @@ class Fence:
         deepest = max(self._inside.get(key, -math.inf), now_m - self._radius_m - _TURN_OUT_M)
         self._inside[key] = deepest
         return deepest
+
+
+def _faster(now_mps: float, told_mps: float) -> float:
+    """What a drive comes to that is told a speed: it may be faster still for a while."""
+    return now_mps if now_mps * told_mps > told_mps**2 else told_mps
 
 
 def _closes(rule: Rule) -> bool:

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, Literal, Protocol
 
-from parley.world.geometry import Pose2D
+from parley.world.geometry import Pose2D, Velocity
 
 if TYPE_CHECKING:  # who only writes a robot class need not load it
     import numpy as np
@@ -33,14 +33,6 @@ COMMAND_LIFETIME_S: Final = 0.3
 
 
 @dataclass(frozen=True, slots=True)
-class Velocity:
-    """Planar velocity in the robot's frame."""
-
-    linear_mps: float = 0.0
-    angular_radps: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
 class DriveLimits:
     """What the drive can do, and what the robot keeps from obstacles."""
 
@@ -48,6 +40,8 @@ class DriveLimits:
     max_turn_radps: float
     max_acceleration_mps2: float = 0.5
     max_turn_acceleration_radps2: float = 3.0
+    max_lateral_mps: float = 0.0
+    """Sideways; 0: a base that must turn to go there."""
     keep_out_m: float = 0.0
     """Distance that the robot's centre keeps from everything the lidar sees."""
 

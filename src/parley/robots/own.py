@@ -187,9 +187,7 @@ class RobotBase(ABC):
     def drive(self, velocity: Velocity) -> None:
         """See `Robot.drive`; what the rules do not let it do is made slower."""
         if self._fence is not None and velocity != STILL:
-            now = self.velocity()
-            wanted = (velocity.linear_mps, velocity.angular_radps)
-            velocity = Velocity(*self._fence.limit(self.pose(), (now.linear_mps, now.angular_radps), wanted))
+            velocity = self._fence.limit(self.pose(), self.velocity(), velocity)
         with self._lock:
             if self._halted:
                 return
@@ -234,8 +232,7 @@ class RobotBase(ABC):
     def _breaks(self, fence: Fence) -> bool:
         """Whether the robot moves in a way that the rules do not allow."""
         now = self.velocity()
-        moves = (now.linear_mps, now.angular_radps)
-        return abs(now.linear_mps) - abs(fence.limit(self.pose(), moves, moves)[0]) > _SLACK_MPS
+        return now.speed_mps - fence.limit(self.pose(), now, now).speed_mps > _SLACK_MPS
 
     def _expire(self) -> None:
         """Runs in a thread of its own: a blocked loop must not leave the robot driving."""

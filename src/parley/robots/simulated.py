@@ -72,7 +72,7 @@ class SimulatedRobot:
 
     def velocity(self) -> Velocity:
         """See `Robot.velocity`."""
-        return Velocity(*self._simulator.velocity(self.name))
+        return self._simulator.velocity(self.name)
 
     def scan(self) -> LaserScan:
         """See `Robot.scan`."""
@@ -91,7 +91,7 @@ class SimulatedRobot:
 
     def drive(self, velocity: Velocity) -> None:
         """See `Robot.drive`; does nothing while halted."""
-        self._simulator.command(self.name, velocity.linear_mps, velocity.angular_radps)
+        self._simulator.command(self.name, velocity)
 
     @property
     def sight(self) -> Sight | None:
@@ -141,6 +141,7 @@ class SimulatedRobot:
             model.max_turn_radps,
             model.max_acceleration_mps2,
             model.max_turn_acceleration_radps2,
+            model.max_lateral_mps,
             Navigator.keep_out_m(model.radius_m),
         )
         self._navigator = Navigator(

@@ -115,10 +115,11 @@ def _add_robot(spec: mujoco.MjSpec, entry: RobotEntry) -> None:
     inertia = 0.5 * model.mass_kg * model.radius_m**2
     force = model.mass_kg * model.max_acceleration_mps2
     torque = inertia * model.max_turn_acceleration_radps2
-    # The sideways servo holds speed zero as a wheel's grip would, much stronger than the drive.
+    # Where it does not drive, the sideways servo holds speed zero as a wheel's grip would, much stronger.
+    grip = 1.0 if model.max_lateral_mps else 20.0
     for suffix, gear, mass, limit in (
         ("forward", (1, 0, 0, 0, 0, 0), model.mass_kg, force),
-        ("sideways", (0, 1, 0, 0, 0, 0), model.mass_kg, 20 * force),
+        ("sideways", (0, 1, 0, 0, 0, 0), model.mass_kg, grip * force),
         ("turn", (0, 0, 0, 0, 0, 1), inertia, torque),
     ):
         servo = spec.add_actuator(name=f"{name}/{suffix}", trntype=mujoco.mjtTrn.mjTRN_SITE, target=site)

@@ -43,13 +43,15 @@ class LidarModel(_Part):
 
 
 class RobotModel(_Part):
-    """A differential-drive robot with a round footprint."""
+    """A robot with a round footprint, on a differential drive or, with `max_lateral_mps`, omnidirectional."""
 
     radius_m: float = Field(gt=0)
     height_m: float = Field(gt=0)
     mass_kg: float = Field(default=2.0, gt=0)
     max_speed_mps: float = Field(gt=0)
     max_turn_radps: float = Field(gt=0)
+    max_lateral_mps: float = Field(default=0.0, ge=0)
+    """How fast it walks or rolls sideways; 0: it cannot."""
     max_acceleration_mps2: float = Field(default=0.5, gt=0)
     max_turn_acceleration_radps2: float = Field(default=3.0, gt=0)
     endurance_s: float | None = Field(default=None, gt=0)
@@ -89,6 +91,7 @@ PRESETS: Mapping[str, RobotModel] = MappingProxyType(
             mass_kg=32.0,
             max_speed_mps=0.9,
             max_turn_radps=1.5,
+            max_lateral_mps=0.5,
             endurance_s=1.5 * 3600,
             colour="#e3b81f",
             camera=CameraModel(

@@ -32,7 +32,7 @@ from parley.sim.lidar import Sweep, sweep
 from parley.sim.people import people_in_sight
 from parley.sim.robot_model import RobotModel
 from parley.sim.world_file import WorldChanges, WorldFile
-from parley.world.geometry import Pose2D, wrap_angle
+from parley.world.geometry import Pose2D, Velocity, wrap_angle
 from parley.world.occupancy import OccupancyMap
 
 __all__ = ["BATCH_S", "Guard", "Photograph", "Simulator"]
@@ -54,8 +54,10 @@ _MAX_LAG_S = 0.5
 _REST_MPS = 1e-3
 
 
-Guard = Callable[[Pose2D, tuple[float, float], tuple[float, float]], tuple[float, float]]
-"""What may become of a command: gets the pose, the measured and the commanded speed and turning rate."""
+STILL = Velocity()
+
+Guard = Callable[[Pose2D, Velocity, Velocity], Velocity]
+"""What may become of a command: gets the pose, the measured and the commanded velocity."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -76,7 +78,7 @@ class _Base:
     """Joints and actuators of robot i are numbers 3i to 3i + 2."""
     body_id: int
     rng: np.random.Generator
-    command: tuple[float, float] = (0.0, 0.0)
+    command: Velocity = STILL
     commanded_at_s: float = 0.0
     stopped: bool = False
     guard: Guard | None = None
@@ -174,35 +176,37 @@ class Simulator:
             x, y, yaw = self._data.qpos[self._bases[robot].slots]
         return Pose2D(float(x), float(y), wrap_angle(float(yaw)))
 
-    def velocity(self, robot: str) -> tuple[float, float]:
-        """Measured forward speed (m/s) and turning rate (rad/s, counter-clockwise)."""
+    def velocity(self, robot: str) -> Velocity:
+        """As it is measured."""
         slots = self._bases[robot].slots
         with self._lock:
             east, north, turn = self._data.qvel[slots]
             yaw = self._data.qpos[slots][2]
-        return float(np.cos(yaw) * east + np.sin(yaw) * north), float(turn)
+        cos, sin = np.cos(yaw), np.sin(yaw)
+        return Velocity(float(cos * east + sin * north), float(turn), float(cos * north - sin * east))
 
-    def command(self, robot: str, linear_mps: float, angular_radps: float) -> None:
+    def command(self, robot: str, velocity: Velocity) -> None:
         """Drive at this velocity, limited to what the robot can, for at most `COMMAND_LIFETIME_S`."""
         base = self._bases[robot]
         limits = base.entry.model
-        base.command = (
-            float(np.clip(linear_mps, -limits.max_speed_mps, limits.max_speed_mps)),
-            float(np.clip(angular_radps, -limits.max_turn_radps, limits.max_turn_radps)),
+        base.command = Velocity(
+            float(np.clip(velocity.linear_mps, -limits.max_speed_mps, limits.max_speed_mps)),
+            float(np.clip(velocity.angular_radps, -limits.max_turn_radps, limits.max_turn_radps)),
+            float(np.clip(velocity.lateral_mps, -limits.max_lateral_mps, limits.max_lateral_mps)),
         )
         base.commanded_at_s = self._clock.now_s() + self._ahead_s
         self._wake()
 
-    def commanded(self, robot: str) -> tuple[float, float]:
-        """At which speed (m/s) and turning rate (rad/s) the robot's drive is told to move now."""
+    def commanded(self, robot: str) -> Velocity:
+        """How the robot's drive is told to move now."""
         base = self._bases[robot]
-        return (0.0, 0.0) if base.stopped else base.command
+        return STILL if base.stopped else base.command
 
     def set_stopped(self, robot: str, stopped: bool) -> None:
         """Hold the robot's drive at zero, whatever is commanded, until it is let go again."""
         base = self._bases[robot]
         base.stopped = stopped
-        base.command = (0.0, 0.0)
+        base.command = STILL
         if not stopped:
             self._wake()
 
@@ -373,7 +377,7 @@ class Simulator:
         return self._clock.has_sleepers or self._moving()
 
     def _moving(self) -> bool:
-        if any(base.command != (0.0, 0.0) and not base.stopped for base in self._bases.values()):
+        if any(base.command != STILL and not base.stopped for base in self._bases.values()):
             return True
         with self._lock:
             return bool(np.abs(self._data.qvel).max() > _REST_MPS)
@@ -408,10 +412,10 @@ class Simulator:
                 # A thread may command or halt meanwhile, so each is looked at once.
                 expired = now_s - base.commanded_at_s >= COMMAND_LIFETIME_S - 1e-9
                 if expired:
-                    base.command = (0.0, 0.0)
+                    base.command = STILL
                 brakes = expired or base.stopped
-                forward, turn = (0.0, 0.0) if brakes else self._guarded(base)
-                self._data.ctrl[base.slots] = forward, 0.0, turn
+                told = STILL if brakes else self._guarded(base)
+                self._data.ctrl[base.slots] = told.linear_mps, told.lateral_mps, told.angular_radps
                 self._model.actuator_forcerange[base.slots] = self._forces[base.slots] * (
                     BRAKING if brakes else 1.0
                 )
@@ -445,8 +449,8 @@ class Simulator:
         else:
             self._clock.wanted.set()
 
-    def _guarded(self, base: _Base) -> tuple[float, float]:
-        if base.guard is None or base.command == (0.0, 0.0):
+    def _guarded(self, base: _Base) -> Velocity:
+        if base.guard is None or base.command == STILL:
             return base.command
         name = base.entry.name
         return base.guard(self.pose(name), self.velocity(name), base.command)
