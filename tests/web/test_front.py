@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import httpx
+import pytest
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin
 
@@ -156,6 +157,13 @@ async def test_a_message_with_a_stop_word_holds_before_anybody_reads_it() -> Non
         ]
         await rig.heard()
         assert [said.id for said in rig.robots.inputs] == ["m1"]
+
+
+@pytest.mark.parametrize("words", ["Ada, stop!", "Everybody stop!"])
+async def test_a_message_holds_those_too_whom_its_words_call(words: str) -> None:
+    async with fronted() as (rig, drive):
+        await rig.http.post("/api/chat", json={"id": "m1", "text": words, "targets": ["Bob"]})
+        assert drive.line.held("Ada")
 
 
 async def test_a_message_that_is_sent_again_does_not_hold_a_second_time() -> None:

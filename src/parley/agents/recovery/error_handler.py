@@ -181,8 +181,8 @@ class ErrorHandler(Node):
         if control is None and verdict(said.who, Effect.ANSWER) != "allow":
             return  # the chat interface says so
         if control is not None and not (control == "start" and said.type == "response"):
-            named = self._presence.named_in(said.message)
-            for target in named or [self._presence.resolve(name) or name for name in said.targets]:
+            meant = self._presence.meant_by(said.message, control)
+            for target in meant or [self._presence.resolve(name) or name for name in said.targets]:
                 self._controlled(target, control, said.message)
             self._questions.on_input(said)
             return
