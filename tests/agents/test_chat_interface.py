@@ -32,6 +32,7 @@ from parley.messages.pvf import Parameter
 from parley.messages.status import (
     ActionInfo,
     ActorStatus,
+    GraphEvent,
     PlanDecision,
     PlanProposal,
     PlanStep,
@@ -150,6 +151,22 @@ async def test_what_is_still_to_be_done_is_known_when_the_next_message_is_unders
     assert situation.status == "running"
     (order,) = await room.orders()
     assert order.system_cmd[0].arguments == {"parameters": 1, "step": "two"}  # whatever ends meanwhile
+
+
+async def test_of_what_is_said_meanwhile_only_what_a_step_tells_belongs_to_it(room: Room) -> None:
+    publish = room.observer.publish
+    begun = GraphEvent(actor="A", graph_name="g", sequence=0, kind="node", state="RUNNING", node="Look_0")
+    publish(topics.GRAPH_EVENTS, begun)
+    steps = (PlanStep(action=look(), id="one", node="Look_0", state="running"),)
+    publish(topics.PLAN, PlanUpdate(target="A", graph_name="g", state="running", steps=steps))
+    for text, by_step in (("I see a box.", True), ("Nobody is connected any more.", False)):
+        said = ChatFeedback(message=text, targets=("A",), type="info", by_step=by_step)
+        publish(topics.CHAT_FEEDBACK, said)
+    room.language.will("interpret", ChatAction(message_response="Fine."))
+    room.observer.say("what did you do?", "A")
+    await room.reply(3)
+    (deed,) = room.language.asked[-1][1].dialogue.deeds
+    assert deed.told == ("I see a box.",)
 
 
 @pytest.mark.parametrize("text", ["", "   ", "\n"])

@@ -175,6 +175,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "reply_to": "1",
         "engine": "builtin",
         "rules": [ZONE.model_dump(mode="json", by_alias=True)],
+        "by_step": True,
     },
     chat.FlowIf: {"step": 2, "result": False},
     chat.Flow: {"if": {"step": 2, "result": True}, "together_with": 1, "repeat": 2},
