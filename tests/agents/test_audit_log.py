@@ -162,6 +162,9 @@ async def test_a_memory_counts_when_it_is_durable_and_is_put_down_to_whoever_tol
         await r.tell(topics.MEMORY_EVENT, MemoryEvent(kind="added", name="box"))
         (entry,) = await r.log(effect="remember")
         assert (entry.by, entry.words) == (Principal(kind="person", name="Kim"), "the box is red")
+        await r.tell(topics.MEMORY_EVENT, MemoryEvent(kind="removed", name="box", by=person("Ann")))
+        (entry,) = await r.log(effect="forget")
+        assert (entry.by, entry.words) == (person("Ann"), "the box is red")
 
 
 async def test_nobody_else_writes_what_the_log_says_about_itself() -> None:
