@@ -40,6 +40,7 @@ from parley.messages.status import (
     StopCommand,
 )
 from parley.transport.local import LocalTransport
+from tests.transport.backends import until
 
 LOOK = ActionInfo(name="Look", inputs={"what": "string"}, description="Look at something.")
 
@@ -341,6 +342,18 @@ async def test_memory_that_could_not_be_stored_is_not_acknowledged(room: Room) -
         topics.MEMORY_EVENT, MemoryEvent(kind="failed", name="key", message="The disk is full.")
     )
     assert "could not store" in await room.reply()
+
+
+async def test_of_several_who_are_told_the_same_each_acknowledges_it_when_it_is_stored(room: Room) -> None:
+    command = SystemCommand(command="add_memory", arguments={"data": "the key is red", "name": "key"})
+    understood = ChatAction(message_response="Noted.", system_cmd=(command,))
+    room.language.will("interpret", understood, understood)
+    said = ChatInput(message="the key is red", targets=("A", "B"), id="both")
+    room.observer.publish(topics.CHAT_INPUT, said)
+    await until(lambda: len(room.planner.orders) == 2)
+    for _ in range(2):
+        room.observer.publish(topics.MEMORY_EVENT, MemoryEvent(kind="added", name="key"))
+    assert {await room.reply(1), await room.reply(2)} == {"Noted."}
 
 
 async def test_message_sent_twice_is_handled_once(room: Room) -> None:
