@@ -307,6 +307,8 @@ class System:
         await enter(RuleNode(transport, keeper, self.rules, clock, ground=self.language.ground, maps=floors))
         engines = {name: await self._open_robot(name, views[name]) for name in self.robot_names}
         self._tell_interrupted(journal, planner, notices, engines)
+        self._stack.push_async_callback((await journal.heed_plans(transport)).close)
+        self._stack.push_async_callback(journal.end)
         planner.offer_again()
         told = {was.actor for was in journal.interrupted}
         for incident in recovery.left_over:
@@ -355,7 +357,7 @@ class System:
     def _tell_interrupted(
         self, journal: Journal, planner: UmrfPlanner, notices: Notices, engines: Mapping[str, ActionEngine]
     ) -> None:
-        """Hold what a killed process left of each robot's plan, and offer it to the operator."""
+        """Hold what an earlier process left of each robot's plan, and offer it to the operator."""
         left = [was for was in journal.interrupted if was.actor in engines]
         newest = {was.actor: was for was in left}
         for was in left:

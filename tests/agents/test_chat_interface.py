@@ -32,6 +32,7 @@ from parley.messages.pvf import Parameter
 from parley.messages.status import (
     ActionInfo,
     ActorStatus,
+    GraphEvent,
     PlanDecision,
     PlanProposal,
     PlanStep,
@@ -39,6 +40,7 @@ from parley.messages.status import (
     StopCommand,
 )
 from parley.transport.local import LocalTransport
+from tests.transport.backends import until
 
 LOOK = ActionInfo(name="Look", inputs={"what": "string"}, description="Look at something.")
 
@@ -150,6 +152,22 @@ async def test_what_is_still_to_be_done_is_known_when_the_next_message_is_unders
     assert situation.status == "running"
     (order,) = await room.orders()
     assert order.system_cmd[0].arguments == {"parameters": 1, "step": "two"}  # whatever ends meanwhile
+
+
+async def test_of_what_is_said_meanwhile_only_what_a_step_tells_belongs_to_it(room: Room) -> None:
+    publish = room.observer.publish
+    begun = GraphEvent(actor="A", graph_name="g", sequence=0, kind="node", state="RUNNING", node="Look_0")
+    publish(topics.GRAPH_EVENTS, begun)
+    steps = (PlanStep(action=look(), id="one", node="Look_0", state="running"),)
+    publish(topics.PLAN, PlanUpdate(target="A", graph_name="g", state="running", steps=steps))
+    for text, by_step in (("I see a box.", True), ("Nobody is connected any more.", False)):
+        said = ChatFeedback(message=text, targets=("A",), type="info", by_step=by_step)
+        publish(topics.CHAT_FEEDBACK, said)
+    room.language.will("interpret", ChatAction(message_response="Fine."))
+    room.observer.say("what did you do?", "A")
+    await room.reply(3)
+    (deed,) = room.language.asked[-1][1].dialogue.deeds
+    assert deed.told == ("I see a box.",)
 
 
 @pytest.mark.parametrize("text", ["", "   ", "\n"])
@@ -324,6 +342,18 @@ async def test_memory_that_could_not_be_stored_is_not_acknowledged(room: Room) -
         topics.MEMORY_EVENT, MemoryEvent(kind="failed", name="key", message="The disk is full.")
     )
     assert "could not store" in await room.reply()
+
+
+async def test_of_several_who_are_told_the_same_each_acknowledges_it_when_it_is_stored(room: Room) -> None:
+    command = SystemCommand(command="add_memory", arguments={"data": "the key is red", "name": "key"})
+    understood = ChatAction(message_response="Noted.", system_cmd=(command,))
+    room.language.will("interpret", understood, understood)
+    said = ChatInput(message="the key is red", targets=("A", "B"), id="both")
+    room.observer.publish(topics.CHAT_INPUT, said)
+    await until(lambda: len(room.planner.orders) == 2)
+    for _ in range(2):
+        room.observer.publish(topics.MEMORY_EVENT, MemoryEvent(kind="added", name="key"))
+    assert {await room.reply(1), await room.reply(2)} == {"Noted."}
 
 
 async def test_message_sent_twice_is_handled_once(room: Room) -> None:

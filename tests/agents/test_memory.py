@@ -23,6 +23,7 @@ from parley.memory.store import MemoryStore
 from parley.messages import topics
 from parley.messages.chat import ChatFeedback
 from parley.messages.memory import RETURN_ALL, GetMemory, MemoryEntry, MemoryEvent, MemoryList, MemoryReply
+from parley.messages.principal import Principal
 from parley.messages.ros import ChatRequest, String
 from parley.messages.status import Rejection
 from parley.messages.wire import MAX_MESSAGE_CHARS, decode, to_string
@@ -105,8 +106,8 @@ async def test_several_memories_in_one_message_are_each_announced_in_order(house
 async def test_a_memory_is_forgotten_by_its_name_wherever_it_belongs(house: House) -> None:
     await house.store.add(MemoryEntry(name="box", data="x"))
     await house.store.add(MemoryEntry(name="box", data="y", scope="A"))
-    await house.tell(topics.REMOVE_MEMORY, {"box": None})
-    assert house.events == [MemoryEvent(kind="removed", name="box")]
+    await house.tell(topics.REMOVE_MEMORY, {"box": {"by": {"kind": "person", "name": "Kim"}}})
+    assert house.events == [MemoryEvent(kind="removed", name="box", by=Principal(kind="person", name="Kim"))]
     assert await house.store.all() == []
 
 

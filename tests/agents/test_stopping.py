@@ -45,10 +45,10 @@ async def failed() -> AsyncIterator[Crew]:
         yield party
 
 
-async def told(party: Crew, text: str, *calls: object) -> None:
+async def told(party: Crew, text: str, *calls: object, to: str = "A") -> None:
     """The operator gives an order that is understood as `calls`."""
     party.language.will("interpret", ChatAction.model_validate({"message_response": "Yes.", "queue": calls}))
-    party.observer.say(text, "A")
+    party.observer.say(text, to)
 
 
 def graph_state(party: Crew) -> str:
@@ -79,6 +79,24 @@ async def test_stop_pauses_stands_still_keeps_the_plan_and_carry_on_resumes(part
     party.body.far.clear()
     await party.state("idle")
     assert party.body.did == ["drive 1", "look door"]
+
+
+@pytest.mark.parametrize(
+    "words",
+    ["Everybody stop!", "stop, both of you!", "all robots halt, there is smoke here", "B, careful, you two!"],
+)
+async def test_a_call_to_stop_that_means_several_stops_them_all_whoever_it_is_said_to(words: str) -> None:
+    async with crew("A", "B", "C", talking=True) as party:
+        for name in ("A", "B"):
+            party.bodies[name].far.add(1)
+            await told(party, "go there and look", drive(1), look("door"), to=name)
+            await party.doing("drive 1", name)
+        party.observer.say(words, "C")
+        for name in ("A", "B"):
+            await party.state("paused", name)
+        party.observer.say("Everybody carry on.", "A")  # only a stop is meant for all
+        await party.state("running", "A")
+        assert party.observer.plans["B"].state == "paused"
 
 
 @pytest.mark.parametrize("turns", [0, 3, 10])

@@ -58,6 +58,8 @@ async def notice(home: House) -> str:
 async def test_it_says_so_and_carries_on_when_told(killed: Path) -> None:
     demo = load_demo("nursing-home")
     async with running(demo.system(SystemConfig(speed=None, data_dir=killed))) as home:
+        await notice(home)  # and it is ended in order before anybody says anything
+    async with running(demo.system(SystemConfig(speed=None, data_dir=killed))) as home:
         text = await notice(home)
         assert "dining table" in text
         assert "carry on" in text
@@ -69,6 +71,21 @@ async def test_it_says_so_and_carries_on_when_told(killed: Path) -> None:
     async with running(demo.system(SystemConfig(speed=None, data_dir=killed))) as home:
         reply = await home.say("carry on")
         assert "nothing" in reply.message.lower()
+        assert not any("interrupted" in said.message for said in home.observer.said)
+
+
+async def test_a_plan_that_was_held_when_the_system_ended_is_offered_until_somebody_drops_it(
+    tmp_path: Path,
+) -> None:
+    demo = load_demo("nursing-home")
+    async with running(demo.system(SystemConfig(speed=None, data_dir=tmp_path))) as home:
+        await home.say("go to the dining table")
+        await home.say("wait")
+    async with running(demo.system(SystemConfig(speed=None, data_dir=tmp_path))) as home:
+        assert "dining table" in await notice(home)
+        assert "dropped" in (await home.say("cancel everything")).message
+    async with running(demo.system(SystemConfig(speed=None, data_dir=tmp_path))) as home:
+        assert "nothing" in (await home.say("carry on")).message.lower()
         assert not any("interrupted" in said.message for said in home.observer.said)
 
 

@@ -84,11 +84,20 @@ async def test_after_a_kill_it_is_known_what_was_interrupted_where(tmp_path: Pat
     assert was.is_linear
 
 
-async def test_a_proper_end_leaves_nothing_to_go_on_with(tmp_path: Path) -> None:
+async def test_a_proper_end_forgets_nothing_that_nobody_went_on_with(tmp_path: Path) -> None:
     file = tmp_path / "journal.db"
     killed(file)
-    assert len(await found(file)) == 1
-    assert await found(file) == ()
+    assert await found(file) == await found(file) != ()
+
+
+async def test_what_is_stopped_because_the_process_ends_is_left_as_it_was(tmp_path: Path) -> None:
+    file = tmp_path / "journal.db"
+    async with await Journal.open(file, WallClock()) as journal, rigged(journal=journal) as rig:
+        rig.start(planner_chain("errand", [node("WaitFor", 0, seconds=60.0)]))
+        await rig.until(lambda: rig.node_states("errand", "WaitFor_0")[-1:] == ["RUNNING"])
+        await journal.end()
+    (was,) = await found(file)
+    assert [item.full_name for item in was.going_on] == ["WaitFor_0"]
 
 
 async def test_a_second_kill_still_knows_until_something_new_begins(tmp_path: Path) -> None:
@@ -96,7 +105,7 @@ async def test_a_second_kill_still_knows_until_something_new_begins(tmp_path: Pa
     killed(file)
     killed(file)
     assert [was.graph.name for was in await found(file)] == ["errand"]
-    assert [state for (state,) in rows(file, "SELECT settled FROM run")] == [1, 1]
+    assert [state for (state,) in rows(file, "SELECT settled FROM run")] == [1, 0]
 
 
 async def test_how_everything_that_ran_stands_is_written_down(tmp_path: Path) -> None:

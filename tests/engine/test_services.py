@@ -78,6 +78,7 @@ async def test_telling_is_information_from_the_robot(desk: Desk) -> None:
     desk.services.tell("I see a box.")
     heard = await desk.hears(1)
     assert (heard.type, heard.targets, heard.message) == ("info", ("A",), "I see a box.")
+    assert heard.by_step
 
 
 async def test_question_is_a_request_with_choices_and_the_answer_comes_back(desk: Desk) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from parley.language.stop_words import calls_to_stop, has_stop_word, is_no, only_takes_back
+from parley.language.stop_words import called, calls_to_stop, has_stop_word, is_no, only_takes_back
 
 
 @pytest.mark.parametrize(
@@ -60,3 +60,18 @@ def test_a_no_is_one_only_if_nothing_else_is_said() -> None:
 )
 def test_a_word_of_waiting_may_only_open_a_correction(text: str, moves: bool, only: bool) -> None:
     assert only_takes_back(text, moves=moves) is only
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("Everybody stop!", ("Ada", "Cart 2")),
+        ("kõik seis!", ("Ada", "Cart 2")),
+        ("stop all", ("Ada", "Cart 2")),
+        ("careful, cart 2!", ("Cart 2",)),
+        ("stop, that is Ada's box", ()),
+        ("stop", ()),
+    ],
+)
+def test_a_call_is_for_those_whom_its_words_name_or_for_all(text: str, meant: tuple[str, ...]) -> None:
+    assert called(text, ("Ada", "Cart 2")) == meant

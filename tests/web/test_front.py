@@ -13,6 +13,8 @@ from pathlib import Path
 from typing import Any
 
 import httpx
+import pytest
+from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin
 
@@ -20,6 +22,7 @@ from parley.clock import Clock
 from parley.gate.stop_line import StopLine
 from parley.messages.status import StopCommand
 from parley.transport.local import LocalTransport
+from parley.web import stop_desk
 from parley.web.config import WebConfig
 from parley.web.robot_state import STOP_DEADLINE_S
 from parley.web.server import WebServer
@@ -71,9 +74,10 @@ async def fronted(clock: Clock | None = None, **settings: Any) -> AsyncIterator[
 
 
 @contextmanager
-def lined(url: str) -> Iterator[ClientConnection]:
+def lined(url: str, cookie: str = "") -> Iterator[ClientConnection]:
     """A page's line, open."""
-    with connect(url.replace("http", "ws") + "api/stop/line", origin=Origin(url.rstrip("/"))) as line:
+    address, headers = url.replace("http", "ws") + "api/stop/line", {"Cookie": cookie} if cookie else None
+    with connect(address, origin=Origin(url.rstrip("/")), additional_headers=headers) as line:
         assert line.recv(timeout=10) == "{}"
         yield line
 
@@ -158,6 +162,13 @@ async def test_a_message_with_a_stop_word_holds_before_anybody_reads_it() -> Non
         assert [said.id for said in rig.robots.inputs] == ["m1"]
 
 
+@pytest.mark.parametrize("words", ["Ada, stop!", "Everybody stop!"])
+async def test_a_message_holds_those_too_whom_its_words_call(words: str) -> None:
+    async with fronted() as (rig, drive):
+        await rig.http.post("/api/chat", json={"id": "m1", "text": words, "targets": ["Bob"]})
+        assert drive.line.held("Ada")
+
+
 async def test_a_message_that_is_sent_again_does_not_hold_a_second_time() -> None:
     async with fronted() as (rig, drive):
         post = {"id": "m1", "text": "wait", "targets": ["Ada"]}
@@ -165,6 +176,21 @@ async def test_a_message_that_is_sent_again_does_not_hold_a_second_time() -> Non
         drive.line.go_on("m1")
         await rig.http.post("/api/chat", json=post)
         assert not drive.line.held("Ada")
+
+
+async def test_who_was_signed_out_stops_nobody_and_is_hung_up_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(stop_desk, "BEAT_S", 0.05)
+    async with fronted() as (rig, drive):
+        account = {"name": "Kim", "role": "supervisor", "password": "correct horse battery"}
+        await rig.http.post("/api/people", json=account)
+        cookie = "; ".join(f"{name}={value}" for name, value in rig.http.cookies.items())
+        line = await asyncio.to_thread((stack := ExitStack()).enter_context, lined(rig.url, cookie))
+        assert (await rig.http.delete("/api/session")).status_code == 200
+        with pytest.raises(ConnectionClosed):
+            await asyncio.to_thread(line.send, json.dumps({"id": "s1", "targets": []}))
+            await asyncio.to_thread(answer_on, line)
+        assert not drive.line.latched("Ada")
+        await asyncio.to_thread(stack.close)
 
 
 async def test_only_a_person_at_the_page_releases() -> None:

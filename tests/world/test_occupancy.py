@@ -53,6 +53,7 @@ def test_a_cells_centre_lies_in_that_cell(
 
 def test_points_beside_the_grid_have_no_cell() -> None:
     ground = OccupancyMap(np.zeros((2, 3), np.int8), 0.5, 1.0, 2.0)
+    assert not ground.contains(*ground.cell_of(1e308, -1e308))
     cells = ground.cells_of(np.array([[1.1, 2.6], [0.9, 2.1], [2.4, 2.1], [2.6, 2.1], [1.1, 3.1]]))
     assert cells.tolist() == [[1, 0], [0, 2]]
     assert ground.centers_of(cells).tolist() == [[1.25, 2.75], [2.25, 2.25]]

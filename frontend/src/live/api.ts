@@ -37,6 +37,8 @@ export class ApiError extends Error {
 }
 
 const TIMEOUT_MS = 15_000;
+/** A browser carries at most 64 kB on behalf of pages that are closed, all requests together. */
+const CARRIED_ON_CHARS = 4_000;
 
 interface Problem {
   title?: unknown;
@@ -62,12 +64,15 @@ export async function request<T>(
   timeoutMs = TIMEOUT_MS,
 ): Promise<T> {
   let response: Response;
+  const sent = body === undefined ? null : JSON.stringify(body);
   try {
     response = await fetch(`/api/${path}`, {
       method,
-      headers: body === undefined ? {} : { 'Content-Type': 'application/json' },
-      body: body === undefined ? null : JSON.stringify(body),
+      headers: sent === null ? {} : { 'Content-Type': 'application/json' },
+      body: sent,
       credentials: 'same-origin',
+      // What was pressed arrives, even if the page is closed at once.
+      keepalive: method !== 'GET' && (sent?.length ?? 0) <= CARRIED_ON_CHARS,
       signal: AbortSignal.timeout(timeoutMs),
     });
   } catch {

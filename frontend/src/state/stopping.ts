@@ -91,6 +91,11 @@ export const useStopping = create<Stopping>()((set, get) => {
   };
 });
 
+// Only this page goes on sending a stop that was not taken: whoever closes it then is asked.
+window.addEventListener('beforeunload', (event) => {
+  if (useStopping.getState().pending) event.preventDefault();
+});
+
 const isAgain = (before: Press | null, targets: readonly string[], now: number) =>
   before !== null &&
   now - before.sinceMs < DOUBLE_MS &&

@@ -101,8 +101,8 @@ class MemoryNode(Node):
 
     async def _on_remove(self, message: RemoveMemory) -> None:
         for name in message.root:
-            scope = message.scope_of(name)
-            await self._change(name, scope or "", "forget", self._remove(name, scope, message.by_of(name)))
+            scope, by = message.scope_of(name), message.by_of(name)
+            await self._change(name, scope or "", "forget", self._remove(name, scope, by), by)
 
     async def _remove(self, name: str, scope: str | None, by: Principal | None) -> MemoryEvent:
         known = [entry for entry in await self._store.named(name) if scope in (None, entry.scope)]
@@ -114,14 +114,16 @@ class MemoryNode(Node):
         said = sentence("I remember nothing under the name {name}.", name=name)
         return MemoryEvent(kind="failed", name=name, scope=scope or "", message=said)
 
-    async def _change(self, name: str, scope: str, verb: str, change: Awaitable[MemoryEvent]) -> None:
+    async def _change(
+        self, name: str, scope: str, verb: str, change: Awaitable[MemoryEvent], by: Principal | None = None
+    ) -> None:
         try:
             event = await change
         except StoreError as error:
             self.log.error("memory not changed", name=name, verb=verb, problem=str(error))
             said = f"I could not {verb} that: {_plain(error)}"
             event = MemoryEvent(kind="failed", name=name, scope=scope, message=said)
-        self.publish(topics.MEMORY_EVENT, event)
+        self.publish(topics.MEMORY_EVENT, event.model_copy(update={"by": by}))
 
     async def _on_feedback(self, feedback: ChatFeedback) -> None:
         """Record which memories a reply was founded on; of the reply itself nothing depends on it."""

@@ -8,7 +8,10 @@ from dataclasses import dataclass
 from typing import Final
 
 from parley.clock import Clock
+from parley.language.control import Control
+from parley.language.stop_words import called
 from parley.messages import topics
+from parley.messages.plain import named_in
 from parley.messages.status import ActorStatus
 from parley.sentences import sentence
 from parley.transport.base import Transport
@@ -29,6 +32,9 @@ def linked_to(transport: Transport) -> Callable[[str], bool]:
         return any(end.role == "server" and end.name == name for end in transport.endpoints())
 
     return linked
+
+
+_STOPPING: Final = ("stop", "emergency_stop")
 
 
 @dataclass(slots=True)
@@ -122,8 +128,15 @@ class Presence:
 
     def named_in(self, message: str) -> list[str]:
         """The robots that a message calls by name."""
-        words = {word.strip(".,:;!?").casefold() for word in message.split()}
-        return [name for name in (*self.names(), *sorted(self._left)) if name.casefold() in words]
+        return list(named_in(message, self.ever()))
+
+    def called_in(self, message: str) -> list[str]:
+        """The robots that a call to stop is for by its words: those that it names, or all."""
+        return list(called(message, self.ever()))
+
+    def meant_by(self, message: str, control: Control) -> list[str]:
+        """The robots that an order of control is for by its words; who says "all" stops all, and no more."""
+        return self.called_in(message) if control in _STOPPING else self.named_in(message)
 
     def known_text(self) -> str:
         """Who is there, as a sentence for the operator."""

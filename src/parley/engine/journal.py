@@ -1,4 +1,4 @@
-"""What ran, written down as it happens, so that after a crash it can be gone on with.
+"""What ran, written down as it happens, so that the next process can go on with it.
 
 One SQLite file holds each run of each graph: the graph as it was started and as it is now, and what
 `parley.umrf.saved` keeps of its state. Recording only notes that a run has changed; it is written in batches
@@ -28,13 +28,18 @@ from parley.engine.journal_file import (
     GraphText,
     prepare,
     read_left,
-    settle_all,
+    settle,
     write,
 )
 from parley.engine.journal_older import put_aside_other_form
-from parley.errors import StoreError
+from parley.errors import InvalidMessageError, StoreError
 from parley.memory.database import Database
+from parley.messages import topics
+from parley.messages.ros import String
+from parley.messages.status import PlanUpdate
+from parley.messages.wire import decode_plan
 from parley.sentences import sentence
+from parley.transport.base import Subscription, Transport
 from parley.umrf.executor import GraphRun
 from parley.umrf.transition import Transition
 
@@ -64,7 +69,7 @@ class Journal:
         tell: Callable[[str], None],
     ) -> None:
         self.interrupted = tuple(interrupted)
-        """What was under way when an earlier process was killed, oldest first."""
+        """What was under way when an earlier process ended, oldest first."""
         self._database, self._clock, self._tell = database, clock, tell
         self._first = self._next = last + 1
         self._ids: weakref.WeakKeyDictionary[GraphRun, int] = weakref.WeakKeyDictionary()
@@ -76,7 +81,7 @@ class Journal:
         """Runs of a batch that could not be written."""
         self._writer: asyncio.Task[None] | None = None
         self._hurry = asyncio.Event()
-        self._broken = False
+        self._broken = self._ending = False
 
     @classmethod
     async def open(
@@ -111,7 +116,7 @@ class Journal:
 
     def record(self, run: GraphRun, transition: Transition) -> None:
         """Note a transition of `run`; called on the loop, costs microseconds."""
-        if transition.kind == "progress":
+        if transition.kind == "progress" or self._ending:
             return
         number = self._ids.get(run)
         if number is None:
@@ -145,13 +150,32 @@ class Journal:
             self._hurry.set()
             await asyncio.wait([self._writer])
 
-    async def close(self) -> None:
-        """Write what is left, note that nothing was interrupted, and close the file. Idempotent."""
+    async def heed_plans(self, transport: Transport) -> Subscription:
+        """Offer no more what an earlier process left of a robot once its plan is given up."""
+        left = {was.actor for was in self.interrupted}
+
+        async def hear(message: String) -> None:
+            try:
+                told = decode_plan(message.data)
+            except InvalidMessageError:
+                return  # whoever shows plans says so
+            if isinstance(told, PlanUpdate) and told.target in left and told.state == "idle":
+                left.discard(told.target)
+                try:
+                    await self._database.run(functools.partial(settle, actor=told.target, first=self._first))
+                except StoreError as error:
+                    log.error("journal cannot be written", reason=str(error))
+
+        return await transport.subscribe(topics.PLAN, hear)
+
+    async def end(self) -> None:
+        """The process ends: what is stopped by that is gone on with by the next one. Idempotent."""
+        self._ending = True
         await self.flush()
-        try:
-            await self._database.run(settle_all)
-        except StoreError as error:
-            log.error("journal not closed properly", reason=str(error))
+
+    async def close(self) -> None:
+        """Write what is left, and close the file. Idempotent."""
+        await self.flush()
         await self._database.close()
 
     def _take(self) -> Batch:

@@ -28,7 +28,7 @@ __all__ = [
     "GraphText",
     "prepare",
     "read_left",
-    "settle_all",
+    "settle",
     "write",
 ]
 
@@ -149,9 +149,7 @@ def _write_begun(
     first: int,
 ) -> None:
     # Whoever begins something new has done with what an earlier process left.
-    connection.execute(
-        "UPDATE run SET settled = 1 WHERE settled = 0 AND actor = ? AND id < ?", (actor, first)
-    )
+    settle(connection, actor=actor, first=first)
     connection.execute(
         "INSERT INTO run (id, actor, graph_name, outer, state, started_unix_ms, changed_unix_ms, shared,"
         " graph_started) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
@@ -173,13 +171,21 @@ def _tidy(connection: sqlite3.Connection, batch: Batch) -> None:
         connection.execute("DELETE FROM node WHERE run <= ?", (oldest,))
 
 
-def settle_all(connection: sqlite3.Connection) -> None:
-    """Note that nothing was interrupted."""
-    connection.execute("UPDATE run SET settled = 1 WHERE settled = 0")
+def settle(connection: sqlite3.Connection, *, actor: str, first: int) -> None:
+    """Note that nobody goes on with what an earlier process left.
+
+    Args:
+        connection: To the file.
+        actor: Of whom.
+        first: The number of the first run of this process.
+    """
+    connection.execute(
+        "UPDATE run SET settled = 1 WHERE settled = 0 AND actor = ? AND id < ?", (actor, first)
+    )
 
 
 def read_left(connection: sqlite3.Connection) -> tuple[list[Interrupted], int]:
-    """What was under way when the last process ended, and the number of the last run."""
+    """What was under way when earlier processes ended, and the number of the last run."""
     (last,) = connection.execute("SELECT coalesce(max(id), 0) FROM run").fetchone()
     rows = connection.execute(
         "SELECT actor, graph_name, id, state IN (?, ?, ?) OR outer != ''"

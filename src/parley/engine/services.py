@@ -67,7 +67,7 @@ class ContextServices:
 
     def tell(self, text: str) -> None:
         """See `Operator.tell`."""
-        self._feedback(ChatFeedback(message=text, targets=(self._actor,), type="info"))
+        self._feedback(ChatFeedback(message=text, targets=(self._actor,), type="info", by_step=True))
 
     async def ask(self, question: str, choices: Sequence[str] = ()) -> str:
         """See `Operator.ask`."""

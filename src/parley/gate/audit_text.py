@@ -8,6 +8,7 @@ from typing import Any, Final
 
 from parley.gate.wording import rule_text
 from parley.messages.audit import AuditEvent
+from parley.messages.plain import one_line
 from parley.messages.principal import Principal
 from parley.messages.rules import Rule
 from parley.sentences import Sentence, listed, sentence, together
@@ -60,7 +61,8 @@ def what_of(detail: dict[str, Any]) -> Sentence:
 
 
 def told(event: AuditEvent) -> Sentence:
-    """What happened, in one sentence."""
+    """What happened, in one sentence on one line: no words in it look like another entry."""
+    event = AuditEvent.model_validate(_on_one_line(event.model_dump(include=set(AuditEvent.model_fields))))
     if event.outcome == "refused" and event.by is None:  # whose it was is not known
         about = event.robot or sentence("all robots")
         return sentence("Refused ({robot}): {reason}", robot=about, reason=event.reason or event.effect)
@@ -72,6 +74,18 @@ def told(event: AuditEvent) -> Sentence:
     if event.effect == "rule" and "rule" in event.detail:
         return _ruled(event)
     return together(sentence("{what}.", what=_plain(event)), _more(event))
+
+
+def _on_one_line(value: Any) -> Any:
+    """All texts of a value as `one_line` shows them."""
+    match value:
+        case str():
+            return one_line(value)
+        case dict():
+            return {key: _on_one_line(item) for key, item in value.items()}
+        case list() | tuple():
+            return [_on_one_line(item) for item in value]
+    return value
 
 
 def _ruled(event: AuditEvent) -> Sentence:

@@ -212,13 +212,12 @@ class Heard:
 
     def on_memory(self, event: MemoryEvent) -> list[AuditEvent]:
         """What is remembered or forgotten for good."""
-        by, text = self._memories.get(f"{event.scope}\n{event.name}") or (None, "")
-        if event.kind == "removed":
-            by = None
+        told_by, text = self._memories.get(f"{event.scope}\n{event.name}") or (None, "")
+        forgets = event.kind == "removed" or event.by is not None
         return [
             AuditEvent(
-                effect=Effect.FORGET if event.kind == "removed" else Effect.REMEMBER,
-                by=by,
+                effect=Effect.FORGET if forgets else Effect.REMEMBER,
+                by=event.by if forgets else told_by,
                 robot=event.scope,
                 outcome="failed" if event.kind == "failed" else "done",
                 words=text,

@@ -1,7 +1,7 @@
 """Stop and its kin, recognised before any language engine is asked (design section 5).
 
 Whole utterances only: "stop!", "please wait", "arrête" are orders; "don't stop", "stop at the chair" and "is
-there a bus stop?" are not.
+there a bus stop?" are not. What else calls to stop is read by `stop_words`.
 """
 
 from __future__ import annotations

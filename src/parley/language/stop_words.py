@@ -9,9 +9,12 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Sequence
 from typing import Final
 
-__all__ = ["calls_to_stop", "has_stop_word", "is_no", "only_takes_back", "opens_with_no"]
+from parley.messages.plain import named_in
+
+__all__ = ["called", "calls_to_stop", "has_stop_word", "is_no", "only_takes_back", "opens_with_no"]
 
 _WORDS: Final = (
     r"s+t+o+p+p*|stp+|sto|sotp|stpo|tsop|stpp|stopp?it|h+a+l+t+|w+a+i+t+|f+r+e+e+z+e+|w+h?o+a+h?|brake|"
@@ -28,6 +31,12 @@ _PHRASES: Final = (
     r"pea\s+kinni|jää\s+(?:seisma|paigale)|ära\s+(?:liigu|sõida)|paigal|kohe\s+seisma"
 )
 _STOP: Final = re.compile(rf"(?<![\w-])(?:{_WORDS}|{_PHRASES})(?![\w])", re.IGNORECASE)
+
+_EVERYBODY: Final = re.compile(
+    r"\b(?:every\s?(?:body|one)|all\s+of\s+(?:you|them)|both|you\s+(?:all|two|lot)|guys|robots|kõik|kõigil?|"
+    r"mõlemad|robotid)\b|^\W*all\b|\ball\W*$",
+    re.IGNORECASE,
+)
 
 _NO: Final = re.compile(
     r"\W*(?:(?:no+|nope|nah|not\s+(?:there|that(?:\s+way)?)|ei|mitte\s+sinna)\W*)+", re.IGNORECASE
@@ -76,6 +85,11 @@ _NONE: Final = tuple(
 def has_stop_word(text: str) -> bool:
     """Whether a message has a word of stopping in it; every robot it is for then stands while it is read."""
     return _STOP.search(_plain(text)) is not None
+
+
+def called(text: str, names: Sequence[str]) -> tuple[str, ...]:
+    """Which of some robots a call to stop is for by its words alone, whoever it is said to."""
+    return tuple(names) if _EVERYBODY.search(_plain(text)) else named_in(text, names)
 
 
 def calls_to_stop(text: str) -> bool:

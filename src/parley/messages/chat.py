@@ -96,6 +96,8 @@ class ChatFeedback(Payload):
     """Ours: which language engine worded it, where there are several; empty: ourselves, or the only one."""
     rules: tuple[Rule, ...] = ()
     """Ours: what a yes would make rules, each for one of the choices; whoever has a map draws them."""
+    by_step: bool = False
+    """Ours: an action that is carried out tells it."""
 
 
 class ReplyDraft(Payload):

@@ -193,3 +193,5 @@ class MemoryEvent(Payload):
     """The robot it belongs to; empty for everybody's."""
     message: str = ""
     """Why it failed, in plain words."""
+    by: Principal | None = None
+    """Who wants it forgotten."""

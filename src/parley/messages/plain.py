@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from typing import Annotated, Final
 
 from pydantic import AfterValidator
 
-__all__ = ["LineText", "ShownText", "one_line", "visible"]
+__all__ = ["LineText", "ShownText", "named_in", "one_line", "visible"]
 
 _UNSEEN: Final = re.compile(
     "["
@@ -36,6 +37,15 @@ def visible(text: str) -> str:
 def one_line(text: str) -> str:
     """`visible` for what has one line of its own: labels, names, choices; no line in it can be made up."""
     return " ".join(visible(text).split())
+
+
+def named_in(text: str, names: Iterable[str]) -> tuple[str, ...]:
+    """Which of some names stand in a text, whatever the capitals; "Kim's" names what is theirs, not Kim."""
+    return tuple(
+        name
+        for name in names
+        if re.search(rf"(?<![\w'’-]){re.escape(name)}(?!['’-]?\w)", text, re.IGNORECASE)
+    )
 
 
 def _written_out(character: str) -> str:

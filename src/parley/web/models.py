@@ -15,6 +15,7 @@ from parley.messages.attendance import Unattended
 from parley.messages.audit import AuditChain
 from parley.messages.incident import Incident
 from parley.messages.map import MapView
+from parley.messages.plain import LineText, ShownText
 from parley.messages.principal import Principal
 from parley.messages.rules import RiskClass, Rule
 from parley.messages.status import ActionInfo, PoseInfo
@@ -103,12 +104,12 @@ class ChatEntry(WebModel):
     """Order in the conversation; grows, never reused."""
     unix_ms: int
     who: Literal["operator", "robot"]
-    author: str = ""
+    author: LineText = ""
     """The person's name, if it is known."""
     targets: tuple[str, ...] = ()
     """To whom (operator) or from whom (robot)."""
     type: Literal["request", "response", "info", "error"]
-    message: str
+    message: ShownText
     images: tuple[str, ...] = ()
     """Addresses of attached pictures, below this server."""
     choices: tuple[str, ...] = ()

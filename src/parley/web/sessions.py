@@ -150,7 +150,8 @@ class Sessions:
         """On whose account things happen; None: somebody who is not let in."""
         if device is None:
             return None if self.required else person(device=gadget.label, role="supervisor")
-        role = self.role_of(device)
+        held = self.holding(device.digest)  # it may have been signed out since it was asked for
+        role = None if held is None else self.role_of(held)
         return None if role is None else device.principal(role)
 
     def seen(self, device: Device) -> int:

@@ -11,7 +11,7 @@ import structlog
 from pydantic import ValidationError
 from starlette.responses import Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
-from starlette.websockets import WebSocket, WebSocketDisconnect
+from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
 from parley.language.stop_words import has_stop_word
 from parley.messages.principal import Principal
@@ -35,6 +35,8 @@ KEPT_WITHIN_S: Final = 0.25
 """Wall time for which an answer waits until the stop is on disk; the robots were stopped before."""
 BEAT_S: Final = 2.0
 """Wall time between two signs of life on the line."""
+NOT_LET_IN: Final = 1008
+"""Code with which the line is hung up on who was signed out."""
 
 
 class StopDesk:
@@ -106,17 +108,18 @@ class StopDesk:
     async def _line(self, socket: WebSocket) -> None:
         await socket.accept()
         watching: asyncio.Task[None] | None = None
-        beating = asyncio.create_task(_beat(socket))
+        beating = asyncio.create_task(self._beat(socket))
         try:
-            while True:
+            while _is_open(socket):
                 text = await socket.receive_text()
                 try:
                     post = StopPost.model_validate_json(text)
                 except ValidationError as error:
                     log.warning("unreadable stop", reason=str(error))
                     continue
-                if post.command == "stop":
-                    stop = self._begun(post, self._principal(socket.scope))
+                by = self._principal(socket.scope)
+                if post.command == "stop" and by is not None:
+                    stop = self._begun(post, by)
                     if watching is not None:
                         watching.cancel()
                     watching = asyncio.create_task(self._watch(socket, stop))
@@ -127,12 +130,19 @@ class StopDesk:
                 if task is not None:
                     task.cancel()
 
+    async def _beat(self, socket: WebSocket) -> None:
+        """Give signs of life, and hang up on whom is not let in any more."""
+        while self._principal(socket.scope) is not None:
+            await socket.send_text("{}")
+            await asyncio.sleep(BEAT_S)
+        await socket.close(NOT_LET_IN)
+
     async def _watch(self, socket: WebSocket, stop: Stop) -> None:
         """Tell how the robots fare, whenever that changed."""
         told: StopAnswer | None = None
         for _ in range(int(WATCHED_S / LOOK_S)):
             now = self._told(stop)
-            if now != told:
+            if now != told and _is_open(socket):
                 told = now
                 await socket.send_text(now.model_dump_json())
             await asyncio.sleep(LOOK_S)
@@ -149,10 +159,9 @@ class StopDesk:
         return StopAnswer(id=stop.id, robots=self._stopper.states(stop), kept=self._stopper.kept)
 
 
-async def _beat(socket: WebSocket) -> None:
-    while True:
-        await socket.send_text("{}")
-        await asyncio.sleep(BEAT_S)
+def _is_open(socket: WebSocket) -> bool:
+    """Whether we have not hung up."""
+    return socket.application_state is WebSocketState.CONNECTED
 
 
 async def _read(receive: Receive) -> tuple[list[Message], bytes]:

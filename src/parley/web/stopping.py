@@ -10,6 +10,7 @@ from typing import Final
 
 from parley.clock import Clock
 from parley.gate.stop_line import StopLine
+from parley.language.stop_words import called
 from parley.latest import Latest
 from parley.messages.principal import Principal
 from parley.messages.status import StopCommand
@@ -81,12 +82,12 @@ class Stopper:
         return ""
 
     def hold(self, targets: Iterable[str], *, by: Principal | None, id: str, words: str) -> None:
-        """Let robots stand while a message is read; sent again it holds nobody a second time."""
+        """Let robots, and whom the words call, stand while they are read; sent again it holds nobody."""
         with self._lock:
             if id in self._held:
                 return
             self._held[id] = None
-        named = self._named(targets)
+        named = self._named((*targets, *called(words, [name for name, _ in self._views()])))
         if self._line is not None:
             self._line.hold(named, id=id, by=by, words=words)
         else:

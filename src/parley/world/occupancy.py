@@ -30,6 +30,8 @@ FREE, OCCUPIED, UNKNOWN = 0, 100, -1
 
 MAX_CELLS: Final = 50_000_000
 """Of one map: 350 m square in cells of 5 cm."""
+_FAR: Final = 1e9
+"""Rows or columns: further away is nothing, whatever somebody orders."""
 _FORMATS: Final = ("PPM", "PNG", "BMP", "JPEG", "TIFF", "GIF")
 
 _FREE_PIXEL, _OCCUPIED_PIXEL, _UNKNOWN_PIXEL = 254, 0, 205
@@ -81,10 +83,8 @@ class OccupancyMap:
 
     def cell_of(self, x_m: float, y_m: float) -> tuple[int, int]:
         """Row and column of a point in the map frame; may lie outside the grid (see `contains`)."""
-        return (
-            math.floor((y_m - self.origin_y_m) / self.resolution_m),
-            math.floor((x_m - self.origin_x_m) / self.resolution_m),
-        )
+        row, column = (y_m - self.origin_y_m) / self.resolution_m, (x_m - self.origin_x_m) / self.resolution_m
+        return math.floor(max(-_FAR, min(row, _FAR))), math.floor(max(-_FAR, min(column, _FAR)))
 
     def cells_of(self, points_m: NDArray[np.float64]) -> NDArray[np.intp]:
         """Rows and columns, shape (k, 2), of those of the map-frame points (n, 2) that lie on the grid."""

@@ -146,8 +146,8 @@ class ChatInterface(Node):
 
     def _on_input(self, said: ChatInput) -> None:
         """Hear a message; where a word of stopping is in it, its robots stand while it is read."""
-        targets = tuple(self._presence.resolve(name) or name for name in said.targets)
-        held = self._holds.begin(said, targets)
+        targets = (self._presence.resolve(name) or name for name in said.targets)
+        held = self._holds.begin(said, (*targets, *self._presence.called_in(said.message)))
         try:
             self._read(said)
         finally:
@@ -169,11 +169,8 @@ class ChatInterface(Node):
         if control is None and said.type == "response" and not said.targets and self._questions.robots():
             self._questions.on_input(said)
             return  # an answer; where several robots wait, the error handler asks which is meant
-        targets = self._addressed(said)
-        if control is not None:
-            targets = self._presence.named_in(said.message) or targets
         calls, refuses = calls_to_stop(said.message), self._says_no(said.message, control)
-        for target in targets:
+        for target in self._meant(said, control, calls=calls):
             question = self._questions.newest(target) if said.type == "response" else None
             offered = self._offered.newest(target) is not None and question is None
             unasked = refuses and question is None and not offered
@@ -221,8 +218,17 @@ class ChatInterface(Node):
         if not calls_to_stop(said.message):
             self._say(said.targets, texts.ONLY_LOOKS, "error", said.id)
             return
-        for target in self._addressed(said):
+        for target in self._meant(said, None, calls=True):
             self._control(target, "stop", said)
+
+    def _meant(self, said: ChatInput, control: Control | None, *, calls: bool) -> list[str]:
+        """Whom a message is for; a call to stop also for those under way whom its words call."""
+        targets = self._addressed(said)
+        if control is not None:
+            return self._presence.meant_by(said.message, control) or targets
+        called = self._presence.called_in(said.message) if calls else []
+        moving = [name for name in called if self._known.moves(name, self._presence.get(name))]
+        return list(dict.fromkeys((*targets, *moving)))
 
     def _hand_on(self, target: str, decision: PlanDecision, said: ChatInput) -> None:
         """Hand a yes or no on, if the question about the plan is what the robot said last; else ask again."""

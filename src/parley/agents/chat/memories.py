@@ -26,18 +26,19 @@ class Confirmations:
     """Waits until memories are durable."""
 
     def __init__(self) -> None:
-        self._waits: dict[str, asyncio.Future[MemoryEvent]] = {}
+        self._waits: list[tuple[str, asyncio.Future[MemoryEvent]]] = []
+        """With the name of the entry, in the order in which the memory is told; several may have one name."""
 
     def wait_for(self, name: str) -> asyncio.Future[MemoryEvent]:
         """What the memory will say about the entry of that name; begin before it is told of it."""
         wait: asyncio.Future[MemoryEvent] = asyncio.get_running_loop().create_future()
-        self._waits[name] = wait
+        self._waits.append((name, wait))
         return wait
 
     def on_event(self, event: MemoryEvent) -> None:
         """The memory says what became of an entry."""
-        wait = self._waits.get(event.name)
-        if wait is not None and not wait.done():
+        waits = (wait for name, wait in self._waits if name == event.name and not wait.done())
+        if (wait := next(waits, None)) is not None:
             wait.set_result(event)
 
     async def confirmed(self, waits: Sequence[asyncio.Future[MemoryEvent]]) -> str:
@@ -50,7 +51,7 @@ class Confirmations:
         except TimeoutError:
             return "I could not store that: the memory does not answer. Please tell me again later."
         finally:
-            self._waits = {name: wait for name, wait in self._waits.items() if wait not in waits}
+            self._waits = [(name, wait) for name, wait in self._waits if wait not in waits]
         failed = next((event for event in events if event.kind == "failed"), None)
         return sentence("I could not store that: {why}", why=failed.message) if failed else ""
 

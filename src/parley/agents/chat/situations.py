@@ -73,7 +73,7 @@ class Situations:
         """Something was said to an operator; it may be a question."""
         self.questions.on_feedback(feedback)
         self._asked.on_feedback(feedback)
-        for target in feedback.targets if feedback.type == "info" else ():
+        for target in feedback.targets if feedback.by_step else ():
             self.log(target).on_said(feedback.message)
         for target in feedback.targets if feedback.type == "error" else ():
             self.log(target).on_refused(feedback.message)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import uuid
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from typing import ClassVar, Literal
 
 from parley.agents.base import Mailboxes, Node
 from parley.agents.planner.orders import WAITING
 from parley.agents.presence import Presence
 from parley.agents.questions import OpenQuestions, SeenIds
+from parley.agents.recovery.advice import Advice, plain_question
 from parley.agents.recovery.asides import Asides
 from parley.agents.recovery.incident_log import IncidentLog
 from parley.agents.recovery.repair import (
@@ -18,29 +18,24 @@ from parley.agents.recovery.repair import (
     Ending,
     Repair,
     ending_of,
-    failed_situation,
-    memory_query,
     steps_left,
 )
 from parley.agents.recovery.which_robot import WhichRobot
-from parley.agents.shown_pictures import sent_pictures
 from parley.agents.thinking import PATIENCE_S, Thinking
 from parley.clock import Clock
-from parley.errors import FailureCode, InvalidMessageError, LanguageError
+from parley.errors import InvalidMessageError
 from parley.gate.assent import assent_of
-from parley.gate.orders import Heard, admit_repair, engine, is_chosen
+from parley.gate.orders import engine
 from parley.gate.rule_talk import Listener, RuleTalk
 from parley.gate.table import Effect, verdict
-from parley.language.base import ErrorSituation, Language, Turn
+from parley.language.base import Language, Turn
 from parley.language.control import Control, control_of
-from parley.memory.client import recall
 from parley.memory.incidents import IncidentStore
 from parley.messages import topics
 from parley.messages.chat import (
     ActionCall,
     ChatAction,
     ChatFeedback,
-    ChatImage,
     ChatInput,
     SystemCommand,
 )
@@ -119,6 +114,7 @@ class ErrorHandler(Node):
         self._latched: set[str] = set()
         """Robots that were stopped for safety and may not move before a person releases that."""
         self._asides = Asides()
+        self._advice = Advice(transport, language, self._thinking, self._presence, objects)
 
     async def open(self) -> None:
         """See `Node.open`."""
@@ -181,8 +177,8 @@ class ErrorHandler(Node):
         if control is None and verdict(said.who, Effect.ANSWER) != "allow":
             return  # the chat interface says so
         if control is not None and not (control == "start" and said.type == "response"):
-            named = self._presence.named_in(said.message)
-            for target in named or [self._presence.resolve(name) or name for name in said.targets]:
+            meant = self._presence.meant_by(said.message, control)
+            for target in meant or [self._presence.resolve(name) or name for name in said.targets]:
                 self._controlled(target, control, said.message)
             self._questions.on_input(said)
             return
@@ -295,14 +291,19 @@ class ErrorHandler(Node):
             if assent_of(answer.message, self._presence.names()) is False:
                 self._decline(repair)
                 return
-        resolution = await self._resolve(repair, reply, answer.images if answer is not None else ())
+        resolution = await self._advice.on(
+            repair,
+            reply,
+            answer.images if answer is not None else (),
+            lambda: self._say(repair.failure.target, _THINKING, "info"),
+        )
         if not self._is_current(repair):
             return
-        resolution = self._admitted(repair, resolution, answer)
+        resolution = self._advice.admitted(repair, resolution, answer)
         if reply is not None:
             repair.note_turn(Turn("operator", said))
         if resolution.success and reply is None and self._is_used_up(repair, resolution):
-            resolution = _plain_question(repair.failure)
+            resolution = plain_question(repair.failure)
         if resolution.success:
             self._solve(repair, resolution, alone=reply is None)
         elif resolution.success is None and answer is not None and repair.question is not None:
@@ -314,23 +315,6 @@ class ErrorHandler(Node):
             self._give_up(repair)
         else:
             self._ask(repair, resolution)
-
-    def _admitted(self, repair: Repair, resolution: ChatAction, answer: ChatInput | None) -> ChatAction:
-        """The answer of the engine as far as it may go on, and on whose account."""
-        name, target = self._language.label, repair.failure.target
-        words = answer.message if answer is not None else ""
-        heard = Heard(
-            words,
-            answer.who if answer is not None else engine(name),
-            target,
-            engine=name,
-            earlier=(repair.failure.error_message,),  # what "it" in an answer is
-        )
-        order = admit_repair(resolution.model_copy(update={"targets": (target,)}), heard)
-        choices = repair.question.choices if repair.question is not None else ()
-        if answer is not None and is_chosen(repair.failure.action_called, resolution, words, choices):
-            return order.model_copy(update={"by": answer.who, "needs_yes": ""})
-        return order
 
     def _decline(self, repair: Repair) -> None:
         """A literal no: nothing is tried, whatever an engine would make of it."""
@@ -347,38 +331,6 @@ class ErrorHandler(Node):
         """Nothing is tried the same way twice without asking, nor for ever, nor while it must not move."""
         latched = repair.failure.target in self._latched
         return latched or repair.alone >= MAX_ALONE or repair.is_known(correction)
-
-    async def _resolve(
-        self, repair: Repair, reply: str | None, images: Sequence[ChatImage] = ()
-    ) -> ChatAction:
-        """Ask the language engine; when it cannot answer, fall back to the failure's own sentence."""
-        target = repair.failure.target
-        if reply is None and repair.failure.code is FailureCode.FORBIDDEN:
-            return _plain_question(repair.failure)  # what people forbade is not worked around alone
-        try:
-            async with self._thinking.about(target, lambda: self._say(target, _THINKING, "info")):
-                return await self._language.resolve(await self._situation(repair, reply, images))
-        except (LanguageError, TimeoutError) as error:
-            self.log.warning("no resolution", target=repair.failure.target, error=repr(error))
-            return _plain_question(repair.failure)
-
-    async def _situation(
-        self, repair: Repair, reply: str | None, images: Sequence[ChatImage]
-    ) -> ErrorSituation:
-        failure = repair.failure
-        status = self._presence.get(failure.target)
-        found = await recall(self.transport, memory_query(failure, reply), scope=failure.target)
-        # What a robot is to do about a failure counts only if a person said so.
-        memory = [entry for entry in found if entry.way != "concluded"]
-        objects = self._objects(failure.target)
-        known = failed_situation(failure, memory=memory, objects=objects, status=status)
-        return replace(
-            known,
-            dialogue=tuple(repair.dialogue),
-            reply=reply,
-            tried=tuple(repair.tried),
-            pictures=await sent_pictures(images),
-        )
 
     def _solve(self, repair: Repair, resolution: ChatAction, *, alone: bool) -> None:
         target = repair.failure.target
@@ -540,8 +492,3 @@ def _order_of(resolution: ChatAction, calls: Sequence[ActionCall], repair: Repai
 def _question_id(incident: Incident) -> str:
     """Of the last question: known from the record, so that the next process can close what this one asked."""
     return f"{incident.id}-{incident.questions}"
-
-
-def _plain_question(failure: ErrorHandlingMessage) -> ChatAction:
-    """The failure's own sentence, for when nothing better is at hand."""
-    return ChatAction(message_response=f"{failure.error_message} What should I do?", success=False)

@@ -110,7 +110,7 @@ class Log:
             facts.over, facts.is_false = True, event.result == "on_false"
 
     def on_said(self, text: str) -> None:
-        """The robot said something of its own accord: it belongs to the step that runs."""
+        """The step that runs said something."""
         key = next(reversed(self._facts), None)
         if key is not None and not self._facts[key].over:
             self._facts[key].told += (text,)
