@@ -38,7 +38,7 @@ def failure_text(action: str, error: BaseException) -> str:
             return FailureReport(message=text_of(error.message), code=error.code).to_text()
     if isinstance(error, asyncio.CancelledError):
         return FailureReport(message=f"{action} was cancelled from inside.").to_text()
-    text = f"{action} failed: {type(error).__name__}: {text_of(error)}".rstrip(": ")
+    text = f"{action} failed: {type(error).__name__}: {text_of(error)}".rstrip(": .") + "."
     return FailureReport(message=clean_text(text), code=FailureCode.INTERNAL).to_text()
 
 
