@@ -165,10 +165,11 @@ class Reader:
         if not isinstance(required, bool):
             self._problem(_join(path, "required"), f"expected true or false, got {_kind(required)}")
             required = True
+        if "conditions" not in raw:
+            return ParentRelation(ref, required)
         conditions: dict[Result, Response] = {}
-        if "conditions" in raw:
-            for index, item in enumerate(self._list(raw, "conditions", path)):
-                conditions |= self._condition(item, f"{path}.conditions[{index}]")
+        for index, item in enumerate(self._list(raw, "conditions", path)):
+            conditions |= self._condition(item, f"{path}.conditions[{index}]")
         return ParentRelation(ref, required, conditions)
 
     def _condition(self, raw: Any, path: str) -> dict[Result, Response]:
@@ -301,7 +302,9 @@ class Reader:
         return tuple([item for item in found if item is not None])
 
     def _state(self, raw: Mapping[str, Any], key: str, path: str, default: S) -> S:
-        value = raw.get(key, default)
+        if key not in raw:
+            return default
+        value = raw[key]
         try:
             return type(default)(value)
         except ValueError:
