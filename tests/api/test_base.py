@@ -15,10 +15,12 @@ for library in ("argon2", "fastapi", "mujoco", "pydantic_ai", "scipy", "skimage"
     sys.modules[library] = None
 
 from own_robot import Cart
+from typer.testing import CliRunner
 
 from pathlib import Path
 
 from parley.api import MapObject, MissingExtraError, ObjectMap, Parley, Site, person
+from parley.cli import command_line
 from parley.doctor import Subject, examine
 
 
@@ -50,6 +52,8 @@ async def main():
 
 
 asyncio.run(main())
+robot = CliRunner().invoke(command_line("robot"), ["robot", "check", "own_robot.py:Cart", "--yes"])
+print(robot.exception)
 """
 
 
@@ -70,4 +74,5 @@ def test_a_robot_without_a_map_needs_no_extra(tmp_path: Path) -> None:
         "anthropic",
         "openai",
         "what language models need is not installed; to get it: pip install 'parley-hri[openai]'",
+        "driving by a map is not installed; to get it: pip install 'parley-hri[maps]'",
     ], done.stderr
