@@ -24,6 +24,7 @@ from urllib.parse import SplitResult, urlsplit
 
 from parley.config import EmbeddingSettings
 from parley.errors import ConfigError
+from parley.extras import model_extra, needs
 from parley.memory.embedder import configured_embedder
 
 __all__ = ["Finding", "Subject", "examine"]
@@ -238,9 +239,9 @@ def _memory(subject: Subject) -> Finding:
 def _language(subject: Subject) -> Finding:
     if subject.language in ("auto", "builtin"):
         return Finding("language", "ok", "built in; needs no model, key or network")
-    from parley.language.llm.models import ModelSpec, make_model, read_key
-
     try:
+        with needs(model_extra(subject.language)):
+            from parley.language.llm.models import ModelSpec, make_model, read_key
         spec = ModelSpec.parse(subject.language.removeprefix("auto:"), subject.base_url)
         model = make_model(spec, read_key(subject.key_file))
     except ConfigError as error:

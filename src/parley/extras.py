@@ -8,15 +8,25 @@ from typing import Final
 
 from parley.errors import MissingExtraError
 
-__all__ = ["EXTRAS", "needs"]
+__all__ = ["EXTRAS", "MODEL_EXTRAS", "model_extra", "needs"]
+
+MODEL_EXTRAS: Final = ("openai", "anthropic", "google", "mistral", "groq")
+"""Those of language models are called as their providers."""
 
 EXTRAS: Final = {
     "maps": "driving by a map",
     "sim": "the simulator",
     "web": "the page for operators",
     "zenoh": "the network of several machines",
+    **dict.fromkeys(MODEL_EXTRAS, "what language models need"),
 }
-"""Extra -> what it brings. Those of language models: `parley.language.llm`."""
+"""Extra -> what it brings."""
+
+
+def model_extra(language: str) -> str:
+    """Which extra a model needs, by its name in the settings; servers of one's own speak as OpenAI's do."""
+    provider = language.removeprefix("auto:").partition(":")[0]
+    return provider if provider in MODEL_EXTRAS else "openai"
 
 
 @contextmanager

@@ -15,9 +15,13 @@ for library in ("argon2", "fastapi", "mujoco", "pydantic_ai", "scipy", "skimage"
     sys.modules[library] = None
 
 from own_robot import Cart
+from typer.testing import CliRunner
 
-from parley.api import MapObject, ObjectMap, Parley, Site, person
-from parley.errors import MissingExtraError
+from pathlib import Path
+
+from parley.api import MapObject, MissingExtraError, ObjectMap, Parley, Site, person
+from parley.cli import command_line
+from parley.doctor import Subject, examine
 
 
 class Guide(Cart):
@@ -37,14 +41,19 @@ async def main():
         reply = await parley.say("Kim", "turn left by 90 degrees")
         plan = await parley.settled("Kim", timeout_s=20)
         print(reply.message, [step.state for step in plan.steps])
-    try:
-        async with Parley(robots=[Cart("Kim")], world=Site.floor(6, 4)):
-            print("it works")
-    except MissingExtraError as error:
-        print(error.extra)
+    for more in ({"world": Site.floor(6, 4)}, {"language": "anthropic:x"}, {"language": "auto:local:x@http://[::1]"}):
+        try:
+            async with Parley(robots=[Cart("Kim")], **more):
+                print("it works")
+        except MissingExtraError as error:
+            print(error.extra)
+    subject = Subject(Path("."), Path("."), 0, language="ollama:x")
+    print(*(item.text for item in examine(subject) if item.subject == "language"))
 
 
 asyncio.run(main())
+robot = CliRunner().invoke(command_line("robot"), ["robot", "check", "own_robot.py:Cart", "--yes"])
+print(robot.exception)
 """
 
 
@@ -62,4 +71,8 @@ def test_a_robot_without_a_map_needs_no_extra(tmp_path: Path) -> None:
         "idle ['finished', 'finished'] 3.95",
         "I will turn left by 90 degrees. ['finished']",
         "maps",
+        "anthropic",
+        "openai",
+        "what language models need is not installed; to get it: pip install 'parley-hri[openai]'",
+        "driving by a map is not installed; to get it: pip install 'parley-hri[maps]'",
     ], done.stderr

@@ -121,7 +121,7 @@ async def test_a_defect_of_an_action_is_an_internal_failure_that_names_it() -> N
     await watched.run.wait()
     report = FailureReport.parse(watched.log("Crash_0")[-1])
     assert report.code is FailureCode.INTERNAL
-    assert report.message == "Crash failed: KeyError: 'shelf'"
+    assert report.message == "Crash failed: KeyError: 'shelf'."
 
 
 async def test_facts_that_cannot_be_written_are_left_out_of_the_report() -> None:
@@ -146,7 +146,7 @@ async def test_a_plain_log_line_does_not_hide_the_reason_of_a_defect() -> None:
     watched.run.start()
     await watched.run.wait()
     assert FailureReport.parse(watched.log("RaiseError_0")[-1]).message == (
-        "RaiseError failed: RuntimeError: as planned"
+        "RaiseError failed: RuntimeError: as planned."
     )
 
 

@@ -118,6 +118,7 @@ def test_only_the_ten_newest_messages_are_kept_oldest_first() -> None:
         (ONE | {"instance_id": 70_000}, "actions[0].instance_id"),
         (ONE | {"state": "SLEEPING"}, "actions[0].state"),
         (ONE | {"state": 1}, "actions[0].state"),
+        (ONE | {"parley": {"retry": 2}}, "actions[0].parley.retry"),
         (ONE | {"parents": {}}, "actions[0].parents"),
         (ONE | {"parents": [{}]}, "actions[0].parents[0].name"),
         (ONE | {"parents": ["A"]}, "actions[0].parents[0]"),

@@ -173,9 +173,9 @@ async def test_inputs_outputs_log_and_progress_cross_over() -> None:
         ("segfault", FailureCode.INTERNAL, "SIGSEGV"),
         ("os._exit", FailureCode.INTERNAL, "exit code 7"),
         ("sys.exit", FailureCode.INTERNAL, "it called exit(3)"),
-        ("raise", FailureCode.INTERNAL, "KeyError"),
+        ("raise", FailureCode.INTERNAL, "Misbehave failed: KeyError: 'shelf'."),
         ("badstr", FailureCode.INTERNAL, "MuteError: (RuntimeError while saying why)"),
-        ("opaque", FailureCode.INTERNAL, "cannot leave its process"),
+        ("opaque", FailureCode.INTERNAL, "What Misbehave gave cannot leave its process"),
         ("fail", FailureCode.BLOCKED, "A box is in the way."),
     ],
 )

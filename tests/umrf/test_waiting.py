@@ -52,6 +52,13 @@ async def test_a_graph_that_halts_names_the_exit_that_never_came() -> None:
     assert watched.told[-1].message == "the exit still waits for NoOp_1"
 
 
+async def test_a_graph_without_an_entry_halts_and_says_so() -> None:
+    watched = Watched(chain("g", [node("NoOp", 0)]) | {"graph_entry": [], "graph_exit": []})
+    watched.run.start()
+    assert await watched.run.wait() is Result.ON_HALTED
+    assert watched.told[-1].message == "nothing is at the entry"
+
+
 async def test_a_graph_that_is_meant_to_run_dry_gives_no_reason() -> None:
     watched = Watched(planner_chain("g", [node("JoinText", 0, left="a", right="b")]))
     watched.run.start()

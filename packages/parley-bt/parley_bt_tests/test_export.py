@@ -154,7 +154,7 @@ def one_sided() -> Graph:
 
 def stopped() -> Graph:
     made = graph({("A", "B"): DEFAULT})
-    relation = replace(made.nodes[1].parents[0], conditions={Result.ON_STOPPED: Response.RUN})
+    relation = made.nodes[1].parents[0]._replace(conditions={Result.ON_STOPPED: Response.RUN})
     return replace(made, nodes=(made.nodes[0], made.nodes[1]._replace(parents=(relation,))))
 
 

@@ -160,7 +160,15 @@ class RobotBase(ABC):
     # -- what is done for you ----------------------------------------------------------------------------
 
     def settle(self, occupancy: OccupancyMap | None, clock: Clock, fence: Fence | None) -> None:
-        """Learn the map, the time and the rules it drives by; called before it is used."""
+        """Learn the map, the time and the rules it drives by; called before it is used.
+
+        Raises:
+            MissingExtraError: It finds ways on the map, and what that needs is not installed.
+        """
+        if occupancy is not None and type(self).go is RobotBase.go:
+            from parley.world import grids
+
+            grids.require()
         self._map, self._clock, self._fence = occupancy, clock, fence
 
     def close(self) -> None:

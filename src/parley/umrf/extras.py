@@ -1,17 +1,19 @@
-"""What a descriptor of ours says besides UMRF, under its key `parley`; other engines ignore it."""
+"""What a descriptor of ours says besides UMRF, under the key `parley`; other engines ignore it."""
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Final
 
 from pydantic import BaseModel, ConfigDict, Field, StrictStr, ValidationError
 
 from parley.errors import Problem
 from parley.messages.status import Kind
 from parley.umrf.action import ActionSpec, Risk, SayTest
-from parley.umrf.reading import EXTRAS
 
-__all__ = ["read_extras", "write_extras"]
+__all__ = ["EXTRAS", "KNOWN_KEYS", "read_extras", "write_extras"]
+
+EXTRAS: Final = "parley"
+"""The key of a node or a descriptor for what UMRF does not know."""
 
 _Texts = Annotated[tuple[StrictStr, ...], Field(strict=False)]
 _Seconds = Annotated[float, Field(gt=0, allow_inf_nan=False)]
@@ -43,6 +45,10 @@ class _Extras(_Strict):
     timeout_s: _Seconds | None = None
     parameters: dict[str, _Parameter] = Field(default_factory=dict)
     tests: tuple[_Test, ...] = ()
+
+
+KNOWN_KEYS: Final = frozenset({*_Extras.model_fields, "retries", "skipped"})
+"""What may stand under `EXTRAS` of a node: what is said of its action, and what only graphs say."""
 
 
 def read_extras(raw: Any, inputs: Any) -> tuple[dict[str, Any], list[Problem]]:

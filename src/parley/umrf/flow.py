@@ -318,6 +318,8 @@ class Flow:
 
     def waiting_for(self) -> str:
         """Why nodes that were reached do not run, or what the exit waits for, in words; may be empty."""
+        if not self.entry and all(item.state is NodeState.UNINITIALIZED for item in self.nodes.values()):
+            return "nothing is at the entry"
         reasons: list[str] = []
         for item in self.nodes.values():
             began = item.state is not NodeState.UNINITIALIZED

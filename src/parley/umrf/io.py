@@ -16,7 +16,7 @@ from typing import Any, Final
 from parley.errors import GraphRefusedError, Problem
 from parley.messages.pvf import SEPARATOR, Parameters, write_parameters
 from parley.umrf.action import ActionSpec
-from parley.umrf.extras import read_extras, write_extras
+from parley.umrf.extras import EXTRAS, read_extras, write_extras
 from parley.umrf.model import (
     DEFAULT_CONDITIONS,
     ChildRelation,
@@ -27,7 +27,7 @@ from parley.umrf.model import (
     Response,
     Result,
 )
-from parley.umrf.reading import EXTRAS, Reader, load_object
+from parley.umrf.reading import Reader, load_object
 
 __all__ = [
     "GraphWriter",

@@ -41,7 +41,7 @@ from parley.errors import ActionFailure, FailureCode
 from parley.umrf.action import Action, ActionSpec, Outcome, RunHandle, bind_inputs, outcome_of
 from parley.umrf.modules import PRIVATE, import_file
 from parley.umrf.motion import Motion
-from parley.umrf.reports import harmless, text_of
+from parley.umrf.reports import harmless, raised_text, text_of
 from parley.umrf.signature import flatten_value
 from parley.umrf.threads import in_thread
 
@@ -296,7 +296,7 @@ def _work(connection: Connection, order: _Order) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the engine's to handle
     if hasattr(signal, "pthread_sigmask"):
         signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
-    context = IsolatedContext(order, connection)
+    context, action = IsolatedContext(order, connection), order.node.rpartition("_")[0]
     threading.Thread(target=context.listen, name="stop", daemon=True).start()
     try:
         found = _find(order)
@@ -309,13 +309,11 @@ def _work(connection: Connection, order: _Order) -> None:
     except asyncio.CancelledError:
         last = ("failed", FailureCode.INTERNAL.value, "It was cancelled.", {})
     except BaseException as raised:  # noqa: BLE001 - told to the engine, which tells people
-        error = harmless(raised)
-        text = f"{order.attribute} failed: {type(error).__name__}: {text_of(error)}".rstrip(": ")
-        last = ("failed", FailureCode.INTERNAL.value, text, {})
+        last = ("failed", FailureCode.INTERNAL.value, raised_text(action, harmless(raised)), {})
     try:
         context.send(*last)
     except Exception as error:  # noqa: BLE001 - told to the engine, which tells people
-        text = f"What {order.attribute} gave cannot leave its process: {text_of(error)}"
+        text = f"What {action} gave cannot leave its process: {text_of(error)}"
         context.send("failed", FailureCode.INTERNAL.value, text, {})
 
 

@@ -6,7 +6,7 @@ Frozen and complete: reading, writing, checking and running all speak in these t
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import StrEnum
 from types import MappingProxyType
 from typing import Any, Final, NamedTuple
@@ -131,8 +131,7 @@ ENTRY = NodeRef("graph_entry", 0)
 EXIT = NodeRef("graph_exit", 0)
 
 
-@dataclass(frozen=True, slots=True)
-class ChildRelation:
+class ChildRelation(NamedTuple):
     """An entry of `children` or `graph_entry` (5.1)."""
 
     node: NodeRef
@@ -140,13 +139,12 @@ class ChildRelation:
     """(parent output, child input), flat names."""
 
 
-@dataclass(frozen=True, slots=True)
-class ParentRelation:
+class ParentRelation(NamedTuple):
     """An entry of `parents` or `graph_exit` (5.2)."""
 
     node: NodeRef
     required: bool = True
-    conditions: Mapping[Result, Response] = field(default_factory=dict)
+    conditions: Mapping[Result, Response] = MappingProxyType({})
     """Only what was stated; `response` fills in the defaults."""
 
     def response(self, result: Result) -> Response:

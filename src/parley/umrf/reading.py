@@ -10,6 +10,7 @@ from typing import Any, Final, TypeVar
 from parley.errors import GraphRefusedError, InvalidMessageError, Problem
 from parley.messages.pvf import SEPARATOR, Parameter, read_parameters
 from parley.messages.wire import load_json
+from parley.umrf.extras import EXTRAS, KNOWN_KEYS
 from parley.umrf.model import (
     DEFAULT_CONDITIONS,
     MAX_MESSAGES,
@@ -25,14 +26,12 @@ from parley.umrf.model import (
     Result,
 )
 
-__all__ = ["EXTRAS", "MAX_ACTIONS", "MAX_INSTANCE_ID", "Reader", "load_object"]
+__all__ = ["MAX_ACTIONS", "MAX_INSTANCE_ID", "Reader", "load_object"]
 
 MAX_ACTIONS: Final = 1000
 """How many actions a graph may have: reading and checking so many keeps the loop for some 30 ms."""
 MAX_INSTANCE_ID: Final = 65535
 MAX_RETRIES: Final = 100
-EXTRAS: Final = "parley"
-"""The key of a node or a descriptor for what UMRF does not know; other engines ignore it."""
 
 T = TypeVar("T")
 S = TypeVar("S", NodeState, GraphState)
@@ -129,6 +128,8 @@ class Reader:
         if not isinstance(raw, Mapping):
             self._problem(path, f"expected an object, got {_kind(raw)}")
             return node
+        for key in raw.keys() - KNOWN_KEYS:
+            self._problem(f"{path}.{key}", "unknown key", _one_of(KNOWN_KEYS), "unknown_key")
         retries, timeout_s = raw.get("retries", 0), raw.get("timeout_s")
         if type(retries) is not int or not 0 <= retries <= MAX_RETRIES:
             self._problem(
@@ -164,10 +165,11 @@ class Reader:
         if not isinstance(required, bool):
             self._problem(_join(path, "required"), f"expected true or false, got {_kind(required)}")
             required = True
+        if "conditions" not in raw:
+            return ParentRelation(ref, required)
         conditions: dict[Result, Response] = {}
-        if "conditions" in raw:
-            for index, item in enumerate(self._list(raw, "conditions", path)):
-                conditions |= self._condition(item, f"{path}.conditions[{index}]")
+        for index, item in enumerate(self._list(raw, "conditions", path)):
+            conditions |= self._condition(item, f"{path}.conditions[{index}]")
         return ParentRelation(ref, required, conditions)
 
     def _condition(self, raw: Any, path: str) -> dict[Result, Response]:
@@ -300,7 +302,9 @@ class Reader:
         return tuple([item for item in found if item is not None])
 
     def _state(self, raw: Mapping[str, Any], key: str, path: str, default: S) -> S:
-        value = raw.get(key, default)
+        if key not in raw:
+            return default
+        value = raw[key]
         try:
             return type(default)(value)
         except ValueError:

@@ -11,7 +11,15 @@ from parley.messages.failure import FailureReport
 from parley.umrf.model import Node
 from parley.umrf.text import clean_text
 
-__all__ = ["failure_lines", "failure_text", "harmless", "is_report", "stop_timed_out_text", "text_of"]
+__all__ = [
+    "failure_lines",
+    "failure_text",
+    "harmless",
+    "is_report",
+    "raised_text",
+    "stop_timed_out_text",
+    "text_of",
+]
 
 log = structlog.get_logger(__name__)
 
@@ -38,8 +46,12 @@ def failure_text(action: str, error: BaseException) -> str:
             return FailureReport(message=text_of(error.message), code=error.code).to_text()
     if isinstance(error, asyncio.CancelledError):
         return FailureReport(message=f"{action} was cancelled from inside.").to_text()
-    text = f"{action} failed: {type(error).__name__}: {text_of(error)}".rstrip(": ")
-    return FailureReport(message=clean_text(text), code=FailureCode.INTERNAL).to_text()
+    return FailureReport(message=raised_text(action, error), code=FailureCode.INTERNAL).to_text()
+
+
+def raised_text(action: str, error: BaseException) -> str:
+    """What people read of a defect: a question may follow."""
+    return f"{action} failed: {type(error).__name__}: {text_of(error)}".rstrip(": .") + "."
 
 
 def harmless(error: BaseException) -> BaseException:

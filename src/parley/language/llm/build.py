@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from parley.clock import Clock, WallClock
 from parley.config import ModelSettings
-from parley.errors import ConfigError
+from parley.extras import model_extra, needs
 from parley.language.base import Language
 from parley.language.llm.guard import Budget
 from parley.language.llm.reading import PlanCheck
@@ -52,11 +52,9 @@ def build_language(
     both, names = _split(names)
     if names[0] == _BUILTIN:
         return _builtin()
-    try:
+    with needs(model_extra(names[0])):
         from parley.language.llm.auto import AutoLanguage
         from parley.language.llm.chain import ChainLanguage
-    except ImportError as error:
-        raise ConfigError("language models need a library: pip install 'parley-hri[openai]'") from error
 
     clock = clock or WallClock()
     settings = _shared(settings, len({*names} - {_BUILTIN}), within_s)

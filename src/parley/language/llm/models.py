@@ -15,6 +15,7 @@ from pydantic_ai.models import Model, infer_model
 from pydantic_ai.providers import Provider, infer_provider_class
 
 from parley.errors import ConfigError
+from parley.extras import MODEL_EXTRAS
 from parley.files import read_text
 from parley.language.llm.bounded import BoundedModel, bounded_client
 
@@ -30,7 +31,6 @@ LOCAL_SERVERS: Final = {
 }
 """Servers of one's own that speak the OpenAI protocol, where they usually listen."""
 _COMPATIBLE: Final = {"openai", "local", *LOCAL_SERVERS}
-_OWN_EXTRAS: Final = {"openai", "anthropic", "google", "mistral", "groq"}
 _NO_KEY: Final = "none"
 
 
@@ -117,7 +117,7 @@ def _library(provider: str) -> str:
     """What to install for a provider."""
     if provider in _COMPATIBLE:
         return "parley-hri[openai]"
-    return f"parley-hri[{provider}]" if provider in _OWN_EXTRAS else f"pydantic-ai-slim[{provider}]"
+    return f"parley-hri[{provider}]" if provider in MODEL_EXTRAS else f"pydantic-ai-slim[{provider}]"
 
 
 def _provider(name: str, spec: ModelSpec, key: str, clients: list[Any]) -> Provider[Any]:
