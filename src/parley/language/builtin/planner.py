@@ -290,11 +290,13 @@ class Planner:
         words = tuple(word for word in limit.low if word.isalnum() or "-" in word)
         if not words:
             return False
-        if any(wish.frame not in NO_DEED and wish.verb for wish in reading.wishes):
-            self.builder.left_undone(f"not {limit.text}")
-            return True
-        if any(self.builder.names_set(filler) for wish in wishes for filler in wish.all("T") + wish.all("G")):
+        fillers = [filler for wish in wishes for filler in wish.all("T") + wish.all("G")]
+        verbal = any(wish.frame not in NO_DEED and wish.verb for wish in reading.wishes)
+        if any(self.builder.names_set(f, words) if verbal else self.builder.names_set(f) for f in fillers):
             self.builder.left_out = words
+            return True
+        if verbal:
+            self.builder.left_undone(f"not {limit.text}")
             return True
         self.builder.left_undone(f"not {limit.text}")
         return not self.builder.names_same(words, wishes)
