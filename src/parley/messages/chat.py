@@ -207,6 +207,19 @@ class SystemCommand(Payload):
         return int(text) if text.isdecimal() and len(text) < 10 else None
 
 
+class LeftOpen(Payload):
+    """What a reply leaves open for the next messages, so that nobody has to read it out of the reply."""
+
+    where: str = ""
+    """Whose or what's place was asked for; `you` for who spoke."""
+    about: str = ""
+    """The order that it was asked about, where that is not the message."""
+    waits: bool = False
+    """Whether the order is done when somebody tells what it waits for."""
+    told: tuple[str, ...] = ()
+    """Facts that count as long as the conversation goes on."""
+
+
 class ChatAction(Payload):
     """`chat_action`, `umrf_correction` and the answer of the language engine to a message or an error."""
 
@@ -246,6 +259,8 @@ class ChatAction(Payload):
     """Ours: the proposal in whose place these steps are proposed."""
     alarm: bool = False
     """Ours: a person speaks of danger, so everybody who is connected is told."""
+    left_open: LeftOpen = LeftOpen()
+    """Ours, only in the answer to a message: what the next ones may refer to."""
 
     @model_validator(mode="before")
     @classmethod

@@ -90,11 +90,44 @@ def test_what_is_not_certain_is_offered_in_the_makers_words() -> None:
     assert done(decide(decision.choices[0])) == [("b", {})]
 
 
-def test_an_action_of_which_nothing_is_said_is_never_more_than_offered() -> None:
-    silent = ActionInfo(name="eject_tip")
-    decision = decide("eject the tip", (silent,))
-    assert isinstance(decision, Ask)
-    assert done(Do(decision.offer)) == [("eject_tip", {})]
+NAMED = (
+    ActionInfo(name="eject_tip"),
+    ActionInfo(name="open_gate", inputs={"gate": "string"}),
+    ActionInfo(name="drive_to", inputs={"place": "string"}),
+    ActionInfo(name="grasp", inputs={"item": "string"}),
+    ActionInfo(name="inspect", inputs={"thing": "string"}),
+)
+
+
+@pytest.mark.parametrize(
+    ("message", "wanted"),
+    [
+        ("eject the tip", [("eject_tip", {})]),
+        ("open the front gate", [("open_gate", {"gate": "front gate"})]),
+        ("grasp the pump", [("drive_to", {"place": "pump"}), ("grasp", {"item": "pump"})]),
+        ("check the pump", [("drive_to", {"place": "pump"}), ("inspect", {"thing": "pump"})]),
+        ("eject it", []),
+        ("reject the tip", []),
+    ],
+)
+def test_an_action_of_which_only_the_name_is_known_is_done_where_all_of_its_name_is_said(
+    message: str, wanted: list[tuple[str, dict[str, object]]]
+) -> None:
+    assert done(decide(message, NAMED)) == wanted
+
+
+@pytest.mark.parametrize(
+    ("message", "wanted"),
+    [
+        ("honk the horn twice", ["honk", "honk"]),
+        ("go to the pump and honk the horn twice", ["drive_to", "honk", "honk"]),
+        ("go to the pump and take a picture three times", ["drive_to", "snap", "snap", "snap"]),
+    ],
+)
+def test_how_often_counts_for_what_is_done_there_and_for_no_way(message: str, wanted: list[str]) -> None:
+    honk = ActionInfo(name="honk", description="Honk the horn.")
+    decision = ENGINE.decide(situation(message, catalogue=(*CATALOGUE, honk)))
+    assert [name for name, _ in done(decision)] == wanted
 
 
 def test_no_place_is_given_to_an_input_that_takes_a_number() -> None:

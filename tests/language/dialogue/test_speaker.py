@@ -6,6 +6,7 @@ import pytest
 
 from parley.language.base import Situation, Turn
 from parley.language.builtin.engine import BuiltinLanguage
+from parley.language.dialogue.state import Asked, Dialogue
 from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
@@ -17,10 +18,7 @@ THINGS = (
     MapObject("b", "blue desk", 9.0, 0.0),
     MapObject("g", "gate", 5.0, 5.0),
 )
-ASKED = (
-    Turn("operator", "come to me"),
-    Turn("assistant", "I do not know where you are. Which place is it near?"),
-)
+ASKED = Dialogue(asked=Asked("come to me", where="you"), now_unix_ms=1)
 
 
 async def answer(message: str, history: tuple[Turn, ...] = (), **more: object) -> ChatAction:
@@ -66,7 +64,7 @@ async def test_what_names_no_one_place_is_not_kept(message: str) -> None:
 
 @pytest.mark.parametrize("words", ["near the gate", "I'm at the gate", "the gate", "it's by the gate"])
 async def test_the_answer_to_where_somebody_is_lets_the_order_be_done(words: str) -> None:
-    made = await answer(words, ASKED)
+    made = await answer(words, dialogue=ASKED)
     assert kept(made) == [
         f"the operator is {'at' if 'at' in words.split() else 'by' if 'by' in words else 'near'} the gate"
     ]
@@ -75,7 +73,7 @@ async def test_the_answer_to_where_somebody_is_lets_the_order_be_done(words: str
 
 @pytest.mark.parametrize("words", ["near the desk", "never mind", "is it the gate?"])
 async def test_what_does_not_say_which_place_lets_nothing_be_done(words: str) -> None:
-    made = await answer(words, ASKED)
+    made = await answer(words, dialogue=ASKED)
     assert (made.queue, kept(made)) == ((), [])
 
 

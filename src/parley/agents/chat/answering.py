@@ -23,6 +23,7 @@ from parley.gate.orders import UNSURE_OF_ALL, Admitted, Heard, admit
 from parley.language.base import Language, Situation
 from parley.language.completing import bound_to_steps, completed_answer
 from parley.language.dialogue.facts import kept_in_mind
+from parley.language.dialogue.state import Asked
 from parley.memory.sayings import for_oneself
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
@@ -209,8 +210,11 @@ class Answering:
         why = "" if failed else self._recollections.why(target, said, sources, situation.memory)
         reply = together(reply, why, SHALL_I if asked is not None and not failed else "")
         asks = bool(understood.choices) and not understood.queue and asked is None
-        if asks:
-            self._known.log(target).on_asked(said.message, understood.choices)
+        left = understood.left_open
+        if asks or left.where or order.alarm:
+            about = Asked(left.about or said.message, understood.choices, left.where, order.alarm)
+            self._known.log(target).on_asked(about)
+        self._known.log(target).on_left_open(said.message, left)
         self._node.publish(
             topics.CHAT_FEEDBACK,
             ChatFeedback(
@@ -240,7 +244,7 @@ class Answering:
             return texts.UNSURE
         asked = next((ruling for ruling in rulings if ruling.outcome == "asked"), None)
         if asked is not None:
-            return together(kept_in_mind(reply), wish_of(asked.lines, asked.why))
+            return together(kept_in_mind(order.left_open.told), wish_of(asked.lines, asked.why))
         if rulings and all(ruling.outcome == "refused" for ruling in rulings):
             return together(texts.NOT_DONE, *admitted.refused)
         if admitted.resumes and not order.queue:

@@ -85,6 +85,10 @@ class Ask:
     """Whether everybody is told of it: somebody is in danger."""
     told: tuple[Told, ...] = ()
     """What was told clearly beside it."""
+    where: str = ""
+    """Whose or what's place is asked for; `you` for who speaks."""
+    about: str = ""
+    """The order that it is about, where that is not the message."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,6 +133,8 @@ class Answer:
 
     text: str
     sources: tuple[str, ...] = field(default=())
+    waits: bool = False
+    """Whether it promises to do the order when somebody tells what that waits for."""
 
 
 Decision = Do | Ask | Remember | Forget | Edit | Control | Answer

@@ -37,7 +37,9 @@ class Builder(Ways):
         """The deeds of a wish, or a question."""
         self.whole = None
         if wish.own is not None:
-            return self._logic(wish) or self._owned(wish, wish.own)
+            often = self._logic(wish) or self.times(wish)
+            made = often if isinstance(often, Ask) else self._owned(wish, wish.own)
+            return made if isinstance(made, Ask) or isinstance(often, Ask) else made * often
         times = self._strange(wish) or self.times(wish)
         if isinstance(times, Ask):
             return times
@@ -394,8 +396,11 @@ class Builder(Ways):
                 return way or Ask(f"I can {gloss}, but I do not know what to do about {value.said}.")
         if set(skill.action.inputs) - set(arguments) - set(skill.action.optional):
             return Ask(f"I can {gloss}, but I need to know more: what, or where?")
-        if "looks" in skill.action.effects and "GO" in self.skills:
-            before += self.way_to_thing(values.get("T") or self._named_in(wish.one("K")))
+        goes = skill.is_only_named and wish.frame in _ON_THE_SPOT
+        if ("looks" in skill.action.effects or goes) and "GO" in self.skills:
+            before += self.way_to_thing(
+                (values.get("G") if goes else None) or values.get("T") or self._named_in(wish.one("K"))
+            )
         deed = Deed(wish.frame, skill, arguments, said)
         if "looks" in skill.action.effects or wish.frame in ("LOOK", "FIND"):
             self.last_check = deed
@@ -460,6 +465,8 @@ _ONCE = frozenset({"SAY", "ASK", "WAIT", "TURN", "MOVE", "CONNECT", "DISC", "MIX
 """What is not done to one thing after the other."""
 _TOLD = frozenset({"SAY", "ANSWER", "GIVE", "BRING"})
 """What is done for somebody in particular."""
+_ON_THE_SPOT = frozenset({"LOOK", "PHOTO", "TAKE", "PUT"})
+"""What is done where the thing is: an action of which only the name is known may not drive there itself."""
 _LOOSE = frozenset({"FOLLOW", "PHOTO"})
 """What is done all the same if a part of it has no place in the action; that is said."""
 

@@ -162,8 +162,15 @@ class BuiltinLanguage:
             return situation
         made = self.decide(replace(situation, message=past, history=()))
         calls = to_chat(made, self._lexicon).queue if isinstance(made, Do) else ()
-        asked = Asked(past, made.choices) if isinstance(made, Ask) and made.choices else None
-        dialogue = Dialogue(asked=asked, orders=(Order(past, calls=calls),) if calls else ())
+        asks = isinstance(made, Ask) and (made.choices or made.where or made.alarms)
+        dialogue = Dialogue(
+            asked=Asked(past, made.choices, made.where, made.alarms)
+            if isinstance(made, Ask) and asks
+            else None,
+            orders=(Order(past, calls=calls),) if calls else (),
+            waiting=(past,) if isinstance(made, Answer) and made.waits else (),
+            told=tuple(fact.text for fact in made.told) if isinstance(made, Ask) else (),
+        )
         return replace(situation, dialogue=dialogue)
 
     def reading(self, text: str) -> Reading:

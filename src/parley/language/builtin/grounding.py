@@ -348,9 +348,10 @@ class Grounder:
         several = any(map(self.names_set, wish.fillers))
         return several or wish.has("LGS") or bool(named(tokens, self.situation.objects, self.lexicon))
 
-    def names_set(self, filler: Filler) -> bool:
-        """Whether a role holds several things."""
-        return group(filler.words, self.situation.objects, self.lexicon) is not None
+    def names_set(self, filler: Filler, without: Sequence[str] = ()) -> bool:
+        """Whether a role holds several things, among them what is named as left out."""
+        found = group(filler.words, self.situation.objects, self.lexicon, without)
+        return found is not None and not (without and found.doubt)
 
     def knows(self, filler: Filler) -> bool:
         """Whether a role names something of the map, with all of its words."""

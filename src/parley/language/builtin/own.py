@@ -43,6 +43,8 @@ _READ = 0.1
 """So much the tagger must believe in what fills an input."""
 _OFFERED = 0.5
 """From so much on an action is offered in a question."""
+_ANYTHING = frozenset({"object", "item", "thing", "person", "obj", "to", "at", "of"})
+"""Words of a name that say nothing of what it takes."""
 _KEPT = 64
 _TEXTS = 2000
 _LOGIC = frozenset("CUWE")
@@ -61,8 +63,8 @@ class _Known:
     slots: Slots
     patterns: tuple[re.Pattern[str], ...]
     """Its phrases and examples."""
-    told: bool
-    """Whether its maker says what it does; else its name hints at it, and it is only offered."""
+    named: frozenset[str]
+    """Stems of its name, all of which an order must say, if its maker says nothing else of it."""
 
 
 class _Rank(NamedTuple):
@@ -144,7 +146,8 @@ class OwnActions:
             named = frozenset(stem(word) for name in info.inputs for word in words_of_name(name))
             slots = Slots(parameters_of(info), frozenset(info.optional), words | named)
             patterns = tuple(map(_pattern, (*info.phrases, *info.examples)))
-            known.append(_Known(info, words, leading, rows, slots, patterns, bool(said)))
+            whole = frozenset() if said else words - _ANYTHING
+            known.append(_Known(info, words, leading, rows, slots, patterns, whole))
         return tuple(known), self._meanings(texts)
 
     def _meanings(self, texts: Sequence[str]) -> Matrix:
@@ -176,7 +179,9 @@ class OwnActions:
         ranked = sorted(
             (self._ranked(clause, item, likeness) for item in known), key=lambda rank: -rank.worth
         )
-        told = [rank for rank in ranked if rank.item.told]
+        spoken = {*clause.verb, *(word for filler in clause.fillers for word in filler.words)}
+        spoken = {form for word in spoken for form in (stem(word), *lemmas(word))}
+        told = [rank for rank in ranked if rank.item.named <= spoken]
         if told and self._is_sure(told) and not (agreed and told[0].item.action.name in framed):
             best = told[0]
             return OwnAction(best.item.action, best.filled.fills, best.item.slots, True, best.filled.missing)
@@ -188,7 +193,7 @@ class OwnActions:
             return None
         if agreed or best.item.action.name in framed:
             return None
-        ahead = best.item.told and _ahead(told) >= _MARGIN
+        ahead = not best.item.named and _ahead(told) >= _MARGIN
         hinted = best.word > 0 or best.shared > 0 or ahead
         if best.worth >= _OFFERED and hinted:
             missing = best.filled.missing if best.filled.accounted else ()
@@ -294,7 +299,9 @@ def _replaced(
     wishes, loose, left = list(reading.wishes), list(reading.loose), list(reading.left_over)
     for clause, own in meant:
         before = [wish for wish in wishes if clause.start <= wish.start < clause.end]
-        logic = tuple(f for f in clause.fillers if f.role in _LOGIC)
+        logic = tuple(
+            f for f in clause.fillers if f.role in _LOGIC or (f.role == "O" and not own.slots.counting)
+        )
         wishes = [wish for wish in wishes if wish not in before]
         loose = [f for f in loose if not clause.start <= f.start < clause.end]
         for token in parse.tokens[clause.start : clause.end]:

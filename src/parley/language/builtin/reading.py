@@ -86,6 +86,10 @@ def _merged(parse: Parse) -> list[Span]:
         if span.end - span.start == 1 and parse.tokens[span.start].low in _BARE:
             continue
         last = found[-1] if found else None
+        letter = span.end - span.start == 1 and len(parse.tokens[span.start].low) == 1
+        if last is not None and last.role == "E" and letter and last.end == span.start:
+            found[-1] = replace(last, end=span.end)  # "but not lift A"
+            continue
         if last is not None and last.role == span.role and last.end == span.start and span.role in "NGTSLHX":
             head = span.head if span.role in "NH" else last.head
             found[-1] = replace(last, end=span.end, head=head, share=min(last.share, span.share))

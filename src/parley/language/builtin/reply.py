@@ -19,8 +19,8 @@ from parley.language.builtin.decision import (
     Told,
 )
 from parley.language.builtin.lexicon import Lexicon
-from parley.language.dialogue.facts import IN_MIND
-from parley.messages.chat import ActionCall, ChatAction, SystemCommand
+from parley.language.dialogue.facts import kept_in_mind
+from parley.messages.chat import ActionCall, ChatAction, LeftOpen, SystemCommand
 from parley.messages.pvf import NATIVE_TYPES, native_type
 
 __all__ = ["said", "to_chat"]
@@ -46,10 +46,10 @@ def to_chat(decision: Decision, lexicon: Lexicon) -> ChatAction:
             )
         case Ask(question, choices, told=told):
             stop = (SystemCommand(command="stop"),) if decision.stops else ()
+            facts = tuple(fact.text.removeprefix("that ") for fact in told)
             return ChatAction(
-                message_response=" ".join(
-                    [*(f"{IN_MIND} {fact.text.removeprefix('that ')}." for fact in told), question]
-                ),
+                message_response=" ".join([kept_in_mind(facts), question]).strip(),
+                left_open=LeftOpen(where=decision.where, about=decision.about, told=facts),
                 choices=choices,
                 system_cmd=stop,
                 alarm=decision.alarms,
@@ -75,8 +75,8 @@ def to_chat(decision: Decision, lexicon: Lexicon) -> ChatAction:
                 system_cmd=(SystemCommand(command=command),),
                 targets=robots,
             )
-        case Answer(text, sources):
-            return ChatAction(message_response=text, sources=sources)
+        case Answer(text, sources, waits):
+            return ChatAction(message_response=text, sources=sources, left_open=LeftOpen(waits=waits))
 
 
 def _calls(deeds: Sequence[Deed], lexicon: Lexicon) -> tuple[ActionCall, ...]:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from parley.language.builtin.amounts import amount_of
 from parley.language.builtin.lexicon import Lexicon, stem, stems
+from parley.language.builtin.saying import which_one
 from parley.language.builtin.things import head_of, link, main_word
 from parley.world.object_map import MapObject
 
@@ -61,6 +62,8 @@ def group(
     if not parts:
         return None
     found = _listed(parts, objects, lexicon) if len(parts) > 1 else _part(parts[0], objects, lexicon)
+    if found is not None and said[0] in ("any", "either") and len(found.things) > 1:
+        return Group(doubt=which_one([item.description for item in found.things]))
     if found is None or not left_out:
         return found
     return found if found.doubt else _without(found, left_out, lexicon)

@@ -1,6 +1,8 @@
 """Which frame each action of a catalogue is, and which role each of its parameters: once for each catalogue.
 
-Names decide nothing: what an action's maker says of it does, read by the tagger; effects, where there are.
+What an action's maker says of it decides, read by the tagger; effects and the types of a place, where there
+are. A name decides nothing beside that. Where there is nothing else, its verb must be one of the lexicon's,
+and the tagger must see that in verb and inputs.
 """
 
 from __future__ import annotations
@@ -18,7 +20,7 @@ from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.pairing import best_pairs
 from parley.language.builtin.tagger import Tagger
 from parley.messages.status import ActionInfo
-from parley.umrf.kinds import parameters_of
+from parley.umrf.kinds import is_word_for, parameters_of, words_of_name
 
 __all__ = ["Skill", "SkillTable", "Skills"]
 
@@ -64,7 +66,16 @@ class Skill:
     def is_for_persons(self) -> bool:
         """Whether what it is about is a person by its type."""
         name = self.roles.get("T", "")
+        if self.is_only_named and any(
+            is_word_for(word, "person") for word in words_of_name(self.action.name)
+        ):
+            return True
         return name in self.action.inputs and parameters_of(self.action)[name].kind == "person"
+
+    @property
+    def is_only_named(self) -> bool:
+        """Whether its maker says nothing of it: nobody knows whether it drives to what it is about."""
+        return not (self.action.description or self.action.phrases or self.action.effects)
 
     def fitting(self, person: bool) -> Skill | None:
         """This one or the other, for a person or for a thing; None if neither takes such."""
@@ -155,11 +166,11 @@ class SkillTable:
         said = next((frame for effect, frame in _EFFECTS.items() if effect in action.effects), None)
         if said is not None and self._has_core(action, said):
             return {said: 1.0}
+        if not (action.description or action.phrases):
+            return self._named(action)
         if not action.description:
             return {}
-        if action.description not in self._described:
-            self._described[action.description] = self._described_as(action.description)
-        found = self._described[action.description]
+        found = self._describe(action.description)
         many = len(action.inputs)
         return {
             frame: 0.0
@@ -167,6 +178,27 @@ class SkillTable:
             else share * (_TOO_MANY if many > len(_ROLES.get(frame, "TRGSL")) else 1.0)
             for frame, share in found.items()
         }
+
+    def _named(self, action: ActionInfo) -> dict[str, float]:
+        """What only its name and its types tell: a verb, and nothing that its inputs do not say as well."""
+        posed = [any("::" in name for name in names) for names in (action.inputs, action.outputs)]
+        if any(posed):
+            return {"GO" if posed[0] else "LOCATE": 1.0}
+        words, inputs = words_of_name(action.name), {w for name in action.inputs for w in words_of_name(name)}
+        size = next((n for n in range(len(words), 0, -1) if self._lexicon.exactly(words[:n])), 0)
+        known = self._lexicon.exactly(words[:size]) if size else frozenset[str]()
+        plain = {word for hints in self._lexicon.hints.values() for word in hints} | inputs
+        if {*words[size:]} - plain - self._lexicon.classes["prepositions"]:
+            return {}
+        read = self._describe(" ".join(dict.fromkeys([*words, *sorted(inputs)])))
+        found = {frame: share for frame, share in read.items() if frame in known and share >= _LEAST}
+        return {frame: share / sum(found.values()) for frame, share in found.items()}
+
+    def _describe(self, text: str) -> dict[str, float]:
+        """What a text says to the tagger, read once."""
+        if text not in self._described:
+            self._described[text] = self._described_as(text)
+        return self._described[text]
 
     @staticmethod
     def _has_core(action: ActionInfo, frame: str) -> bool:

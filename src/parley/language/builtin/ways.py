@@ -13,7 +13,6 @@ from parley.language.builtin.saying import with_article
 from parley.language.builtin.skills import Skill
 from parley.language.builtin.things import link
 from parley.language.builtin.wishes import Wish
-from parley.language.dialogue.speaker import WHICH_PLACE
 from parley.messages.status import ActionInfo
 from parley.umrf.kinds import parameters_of
 
@@ -56,8 +55,9 @@ class Ways(Grounder):
         if locate is None or not locate.roles:
             return Ask("I cannot find out where that is.")
         if goal.argument == "operator" or not goal.things:
-            unknown = "you are" if goal.argument == "operator" else f"{goal.said} is"
-            return Ask(f"I do not know where {unknown}. {WHICH_PLACE}")
+            what = "you" if goal.argument == "operator" else goal.said
+            unknown = "you are" if what == "you" else f"{what} is"
+            return Ask(f"I do not know where {unknown}. Which place is it near?", where=what)
         return [
             Deed("GO", locate, {next(iter(locate.roles.values())): goal.argument}, said, hidden=True),
             Deed("GO", skill, {}, said),

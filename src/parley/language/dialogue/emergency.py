@@ -16,7 +16,6 @@ from parley.language.dialogue.places import rooms
 
 __all__ = ["NO_ALARM", "emergency", "is_emergency"]
 
-_ALARMED: Final = "That sounds like an emergency"
 _FALSE: Final = (
     r"(?:(?:(?:no|it was|it is|it's|that was|that's|just|only|a|an|the|sorry|it) )*(?:false alarm|"
     r"joke|mistake|test|drill|no emergency|nothing(?: happened| is wrong| at all)?|over|out)|"
@@ -39,7 +38,7 @@ _LONGEST: Final = 60
 
 def is_emergency(situation: Situation) -> bool:
     """Whether somebody was just told of an emergency and asked what to do."""
-    return any(_ALARMED in turn.content for turn in situation.history[-4:] if turn.role == "assistant")
+    return situation.dialogue.asked is not None and situation.dialogue.asked.alarm
 
 
 def emergency(
@@ -128,8 +127,8 @@ def _alarm(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, orde
     wanted = f"Shall I do as you say (“{order}”), or stay here?" if order else ""
     offer = wanted or (f"Shall I go to {where}, or stay here?" if where else "Where is it? Shall I go there?")
     return Ask(
-        f"{still}{_ALARMED}, and I cannot help with hands, nor call anybody by phone: please "
-        f"get help at once. I tell everybody who is connected to me. {offer}",
+        f"{still}That sounds like an emergency, and I cannot help with hands, nor call anybody by phone: "
+        f"please get help at once. I tell everybody who is connected to me. {offer}",
         (what, "Stay here") if what else (),
         stops=moving,
         alarms=True,

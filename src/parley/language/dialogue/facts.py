@@ -18,7 +18,7 @@ from parley.language.stop_words import calls_to_stop, has_stop_word
 from parley.messages.memory import MemoryEntry
 
 __all__ = [
-    "IN_MIND", "forgotten", "in_mind", "is_report", "is_wish", "kept_in_mind", "moved_fact", "other_fact",
+    "forgotten", "in_mind", "is_report", "is_wish", "kept_in_mind", "moved_fact", "other_fact",
     "taken_back", "worth_keeping",
 ]  # fmt: skip
 
@@ -88,14 +88,9 @@ def is_report(text: str) -> bool:
     return not _KEEP.search(low) and "should" not in low and _HAPPENED.search(low) is not None
 
 
-IN_MIND: Final = "For now I keep in mind that"
-"""How the robot says what is not remembered yet."""
-_KEPT: Final = re.compile(rf"{IN_MIND} (.+?)\.(?:\s|$)")
-
-
-def kept_in_mind(reply: str) -> str:
-    """What of a reply says what is kept in mind."""
-    return " ".join(found[0].strip() for found in _KEPT.finditer(reply))
+def kept_in_mind(facts: Sequence[str]) -> str:
+    """How the robot says what is not remembered yet."""
+    return " ".join(f"For now I keep in mind that {fact}." for fact in facts)
 
 
 def worth_keeping(situation: Situation, bare: str, *, beside: bool = False) -> bool:
@@ -118,10 +113,7 @@ def worth_keeping(situation: Situation, bare: str, *, beside: bool = False) -> b
 
 def in_mind(situation: Situation) -> tuple[MemoryEntry, ...]:
     """What was told beside an order that was asked about: it counts as long as the conversation goes on."""
-    told = [
-        turn.content for turn in situation.history if turn.role == "assistant" and IN_MIND in turn.content
-    ]
-    facts = [fact for text in told for fact in re.findall(rf"{IN_MIND} (.+?)\.(?:\s|$)", text)]
+    facts = situation.dialogue.told
     return tuple(MemoryEntry(name=f"in_mind_{at}", data=fact) for at, fact in enumerate(facts))
 
 

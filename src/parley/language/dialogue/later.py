@@ -6,13 +6,12 @@ import re
 from collections.abc import Sequence
 from typing import Final
 
-from parley.language.base import Turn
 from parley.language.builtin.lexicon import lemmas
 
 __all__ = ["PROMISE", "due", "put_off"]
 
 PROMISE: Final = "I will do that as soon as you tell me so"
-"""How the promise begins that is looked for when something is told."""
+"""How the promise begins."""
 _FRONT: Final = re.compile(
     r"^(?:please )?(?:when(?:ever)?|once|as soon as|the moment|after|if) (?P<when>[^,]+?),\s*(?:then |"
     r"please )?(?P<what>.+)$",
@@ -32,7 +31,6 @@ _SMALL: Final = frozenset({
 _NOT: Final = frozenset(
     {"not", "no", "never", "isn't", "hasn't", "yet", "won't", "doesn't", "aren't", "didn't"}
 )
-_TURNS: Final = 20
 
 
 def put_off(message: str) -> tuple[str, str] | None:
@@ -54,17 +52,10 @@ def _sees(condition: str) -> bool:
     return re.match(r"(?:there|you|it|the|a|any|no)\b", condition, re.IGNORECASE) is not None
 
 
-def due(message: str, history: Sequence[Turn]) -> str:
-    """The order that was put off until what a message tells; empty if none was."""
-    turns = history[-_TURNS:]
-    for turn, reply in zip(reversed(turns[:-1]), reversed(turns[1:]), strict=True):
-        waits = (
-            put_off(turn.content) if turn.role == "operator" and reply.content.startswith(PROMISE) else None
-        )
-        if waits is not None and _tells(message, waits[0]):
-            later = [each for each in turns[turns.index(turn) + 1 :] if each.role == "operator"]
-            return "" if any(_tells(each.content, waits[0]) for each in later) else waits[1]
-    return ""
+def due(message: str, waiting: Sequence[str]) -> str:
+    """The order among those put off whose condition a message tells, the newest first; empty if none."""
+    put = (waits for words in reversed(waiting) if (waits := put_off(words)) is not None)
+    return next((what for condition, what in put if _tells(message, condition)), "")
 
 
 def _tells(message: str, condition: str) -> bool:

@@ -7,7 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Final, TypeVar
 
+from parley.language.dialogue.later import due
 from parley.language.dialogue.state import Asked, Deed, Dialogue, Ending, Order, Stop
+from parley.messages.chat import LeftOpen
 from parley.messages.status import ActionInfo, ActorStatus, GraphEvent, PlanProposal, PlanStep, PlanUpdate
 
 __all__ = ["Log"]
@@ -48,6 +50,8 @@ class Log:
     _refused: str = ""
     _asked: tuple[Asked, int] | None = None
     """With the number of turns for which it may still be answered."""
+    _waiting: list[str] = field(default_factory=list)
+    _told: list[str] = field(default_factory=list)
     _plan: PlanUpdate | None = None
     _facts: OrderedDict[_Key, _Facts] = field(default_factory=OrderedDict)
     """What the engine tells of each node; the last is the newest that began."""
@@ -56,11 +60,18 @@ class Log:
         """Somebody's words became steps."""
         self._orders.append(order)
         del self._orders[:-_KEPT_ORDERS]
+        self._waiting = [words for words in self._waiting if not due(order.words, [words])]
         self._refused, self._asked = "", None
 
-    def on_asked(self, words: str, choices: Sequence[str]) -> None:
+    def on_asked(self, asked: Asked) -> None:
         """An order has to be asked about first."""
-        self._asked = (Asked(words, tuple(choices)), _ASKED_TURNS)
+        alarm = asked.alarm or (self._asked is not None and self._asked[0].alarm)
+        self._asked = (replace(asked, alarm=alarm), _ASKED_TURNS)
+
+    def on_left_open(self, words: str, left: LeftOpen) -> None:
+        """A message was answered so that later ones may refer to it."""
+        self._waiting = [*self._waiting, *([words] if left.waits else [])][-_KEPT_ORDERS:]
+        self._told = [*self._told, *left.told][-_KEPT_ORDERS:]
 
     def on_turn(self) -> None:
         """Something was said; after a while nobody means what was asked long ago."""
@@ -127,6 +138,8 @@ class Log:
             deeds=tuple(self._deed(key) for key in self._deeds),
             orders=tuple(self._orders),
             asked=self._asked[0] if self._asked is not None else None,
+            waiting=tuple(self._waiting),
+            told=tuple(self._told),
             stopped=self._stopped,
             refused=self._refused,
             left_s=None if newest.over else newest.left_s,

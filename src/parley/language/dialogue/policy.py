@@ -168,7 +168,7 @@ def _about_what_was_said(
         return repeated
     if (refused := _beyond(situation, reading, tokens, lexicon)) is not None:
         return refused
-    order = due(situation.message, situation.history)
+    order = due(situation.message, situation.dialogue.waiting)
     if order and _ordered(late := again(order)) is not None:
         return late
     instead = _TAKEN_BACK.match(situation.message)
@@ -253,7 +253,7 @@ def promised(situation: Situation, lexicon: Lexicon, again: Again) -> Answer | N
     """The promise to do an order when somebody tells what it waits for; None if it waits for nothing."""
     if (waits := put_off(situation.message)) is not None and (do := _ordered(again(waits[1]))) is not None:
         what = " and ".join(words_for(deed, lexicon) for deed in do.deeds if not deed.hidden)
-        return Answer(f"{PROMISE}: {waits[0]}. Then I {what}.")
+        return Answer(f"{PROMISE}: {waits[0]}. Then I {what}.", waits=True)
     return None
 
 
@@ -302,7 +302,8 @@ def _asked_again(
     """
     asked = situation.dialogue.asked
     short = sum(token.is_word for token in tokens) <= _ANSWER
-    if asked is None or made.choices or made.offer or made.stops or not short or reading.wishes:
+    answers = asked is not None and asked.choices and not (made.choices or made.offer or made.stops)
+    if asked is None or not answers or not short or reading.wishes:
         return None
     if not {*asked.choices} <= {item.description for item in situation.objects}:
         return None

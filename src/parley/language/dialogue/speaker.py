@@ -17,13 +17,7 @@ from parley.language.dialogue.places import rooms
 from parley.language.dialogue.replies import chosen
 from parley.messages.memory import MemoryEntry
 
-__all__ = ["WHICH_PLACE", "answered_place", "name_of", "told_place"]
-
-WHICH_PLACE: Final = "Which place is it near?"
-"""How the question ends that `answered_place` reads the answer to."""
-_ASKED: Final = re.compile(rf"I do not know where (?P<what>.+) (?:is|are)\. {re.escape(WHICH_PLACE)}")
-_TURNS: Final = 4
-"""So many turns back the question may have been asked."""
+__all__ = ["answered_place", "name_of", "told_place"]
 
 _AT: Final = (
     r"(?:right |over |down |up |out |back |in here |here |there )*"
@@ -66,24 +60,18 @@ def told_place(situation: Situation, lexicon: Lexicon) -> Decision | None:
 
 def answered_place(situation: Situation, lexicon: Lexicon, again: Again) -> Decision | None:
     """What comes of the order that was asked about, where the message says which place it is near."""
-    turns = situation.history[-_TURNS:]
-    asked = next(
-        ((turns[at - 1], found) for at, turn in reversed([*enumerate(turns)])
-         if at and turn.role == "assistant" and (found := _ASKED.search(turn.content))),
-        None,
-    )  # fmt: skip
-    said = _ANSWER.fullmatch(_plain(situation.message))
-    if asked is None or said is None or situation.message.rstrip().endswith("?"):
+    asked, said = situation.dialogue.asked, _ANSWER.fullmatch(_plain(situation.message))
+    if asked is None or not asked.where or said is None or situation.message.rstrip().endswith("?"):
         return None
-    choices = situation.dialogue.asked.choices if situation.dialogue.asked else ()
-    where: str | Ask | None = chosen(said["where"].split(), choices) or _place(
+    where: str | Ask | None = chosen(said["where"].split(), asked.choices) or _place(
         said["where"], situation, lexicon
     )
-    if where is None or isinstance(where, Ask):
-        return where
-    order, what = asked[0].content, asked[1]["what"]
-    told = _told(_who(situation) if what == "you" else what, said["side"] or "near", where)
-    made = again(order, told=(MemoryEntry(name=told.name, data=told.text),))
+    if isinstance(where, Ask):
+        return replace(where, where=asked.where, about=asked.words)
+    if where is None:
+        return None
+    told = _told(_who(situation) if asked.where == "you" else asked.where, said["side"] or "near", where)
+    made = again(asked.words, told=(MemoryEntry(name=told.name, data=told.text),))
     return replace(made, told=(told, *made.told)) if isinstance(made, Do) else None
 
 

@@ -62,7 +62,11 @@ class Asked:
 
     words: str
     """The order."""
-    choices: tuple[str, ...]
+    choices: tuple[str, ...] = ()
+    where: str = ""
+    """Whose or what's place was asked for; `you` for who spoke."""
+    alarm: bool = False
+    """Whether they told of danger, and what to do about it was asked."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +93,11 @@ class Dialogue:
     orders: tuple[Order, ...] = ()
     """Those that were carried out or waited for a yes, oldest first."""
     asked: Asked | None = None
-    """The order that waits for a choice among several things."""
+    """The order that waits for a choice among several things, for a place, or for what to do in danger."""
+    waiting: tuple[str, ...] = ()
+    """Orders, in their words, that are done when somebody tells what they wait for; oldest first."""
+    told: tuple[str, ...] = ()
+    """Facts that were told beside orders that were asked about: they count in this conversation."""
     stopped: Stop | None = None
     """The last time."""
     refused: str = ""
