@@ -230,4 +230,9 @@ export const getHandover = (wish: HistoryWish) => request<Handover>('GET', `hist
 /** Where one round is to be had as a file. */
 export const roundFile = (number: number, language: string) => `/api/history/file?${asked({ number, language })}`;
 
+/** With what a browser subscribes to being called. */
+export const getPushKey = () => request<{ key: string }>('GET', 'push');
+export const putPush = (body: { endpoint: string; p256dh: string; auth: string }) => request<unknown>('PUT', 'push', body);
+export const dropPush = (endpoint: string) => request<unknown>('DELETE', `push?endpoint=${part(endpoint)}`);
+
 export const getMap = (robot: string) => request<MapInfo>('GET', `map/${part(robot)}`);
