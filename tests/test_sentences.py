@@ -105,7 +105,7 @@ def test_parts_are_said_one_by_one_and_foreign_words_stay() -> None:
         ("Which one do you mean: the box or the gate?", "Millist sa mõtled: box või gate?"),
         ("I will remember that I will go to the box.", "Jätan meelde: I will go to the box."),
         ("You told me: “I go on. Shall I?”.", "Sa ütlesid mulle: „I go on. Shall I?“."),
-        ("Go to “Which one do you mean?”", "Mine kohta „Which one do you mean?“"),
+        ("You asked me: “Which one?”", "You asked me: “Which one?”"),
         ("Nobody knows this sentence. I go on.", "Nobody knows this sentence. Jätkan."),
     ],
 )
