@@ -87,11 +87,30 @@ def test_a_sentence_is_english_text_and_can_be_said_otherwise() -> None:
 
 
 def test_parts_are_said_one_by_one_and_foreign_words_stay() -> None:
-    text = together("I would go to the box.", "", sentence("Shall I?"))
-    assert text == "I would go to the box. Shall I?"
-    assert in_language(text, "et") == "I would go to the box. Kas teen nii?"
+    text = together("I would sing.", "", sentence("Shall I?"))
+    assert text == "I would sing. Shall I?"
+    assert in_language(text, "et") == "I would sing. Kas teen nii?"
     quoted = sentence("I have finished: {what}.", what=listed(["One step is left.", "{b}"]))
-    assert in_language(quoted, "et") == "Tehtud: One step is left., {b}."
+    assert in_language(quoted, "et") == "Tehtud: Alles on üks samm., {b}."
+
+
+@pytest.mark.parametrize(
+    ("english", "estonian"),
+    [
+        ("All right. I will go to the box.", "Hea küll. Teen nii: mine kohta box."),
+        (
+            "I will go to the box and then wait for 5 seconds.",
+            "Teen nii: mine kohta box ja siis oota 5 sekundit.",
+        ),
+        ("Which one do you mean: the box or the gate?", "Millist sa mõtled: box või gate?"),
+        ("I will remember that I will go to the box.", "Jätan meelde: I will go to the box."),
+        ("You told me: “I go on. Shall I?”.", "Sa ütlesid mulle: „I go on. Shall I?“."),
+        ("You asked me: “Which one?”", "You asked me: “Which one?”"),
+        ("Nobody knows this sentence. I go on.", "Nobody knows this sentence. Jätkan."),
+    ],
+)
+def test_plain_text_is_found_by_its_form_and_what_people_said_stays(english: str, estonian: str) -> None:
+    assert in_language(english, "et") == estonian
 
 
 async def test_a_robot_speaks_the_language_that_is_set() -> None:

@@ -98,6 +98,9 @@ describe.skipIf(!hasBrowser)('nobody meets a barrier', () => {
       expect(await covered(last), 'what has the keyboard is in sight').toBe(false);
       await last.evaluate((choice) => choice.scrollIntoView({ block: 'center' })); // not half behind the buttons
       await findings.look('changing it', page.getByText(words('plan', 'editHelp')));
+      await page.getByRole('button', { name: words('plan', 'onMap') }).last().click();
+      await findings.look('a place on the map', page.getByRole('dialog').locator('svg image'));
+      await page.keyboard.press('Escape');
       await go(stage, page, '');
       await findings.look('chat beside it');
       found.push(...findings.all.map((barrier) => `${size} ${look} ${language}: ${barrier}`));

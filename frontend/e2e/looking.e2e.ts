@@ -37,6 +37,34 @@ describe.skipIf(!hasBrowser)('an operator who looks around', () => {
     await page.getByRole('button', { name: 'Enlarge Map of David' }).waitFor();
   });
 
+  it('is shown what a robot asks while no page is looked at, and not a second time while one is', async () => {
+    const context = await stage.browser.newContext({ permissions: ['notifications'] });
+    try {
+      const page = await context.newPage();
+      await page.goto(stage.system.address);
+      const told = () =>
+        page.evaluate(async () => (await (await navigator.serviceWorker.ready).getNotifications()).map(({ title, body }) => [title, body]));
+      expect(await told()).toEqual([]);
+      const steering = await context.newCDPSession(page);
+      const registered = new Promise<string>((resolve) => {
+        steering.on('ServiceWorker.workerRegistrationUpdated', ({ registrations: [first] }) => first && resolve(first.registrationId));
+      });
+      await steering.send('ServiceWorker.enable');
+      const registrationId = await registered;
+      const origin = new URL(stage.system.address).origin;
+      const push = (body: string) =>
+        steering.send('ServiceWorker.deliverPushMessage', { origin, registrationId, data: JSON.stringify({ title: 'Ada', body, tag: body }) });
+      await page.goto('about:blank');
+      await push('Which one?');
+      await page.goto(stage.system.address);
+      await expect.poll(told).toEqual([['Ada', 'Which one?']]);
+      await push('Shall I?');
+      expect(await told()).toEqual([['Ada', 'Which one?']]);
+    } finally {
+      await context.close();
+    }
+  });
+
   it('rests the camera while the page is hidden, and wakes it again', async () => {
     const page = await stage.open(sizes.desktop);
     const sent: string[] = [];

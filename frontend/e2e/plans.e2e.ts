@@ -71,6 +71,13 @@ describe.skipIf(!hasBrowser)('an operator with a plan', () => {
     const dragged = (await names(page))[0];
     await rows.first().locator('span').first().dragTo(rows.nth(2), { targetPosition: { x: 60, y: 40 } });
     await expect.poll(async () => (await names(page))[0], { timeout: PATIENCE_MS }).not.toBe(dragged);
+
+    await rows.first().getByRole('button', { name: 'On the map' }).click();
+    const picker = page.getByRole('dialog', { name: 'Place' });
+    await picker.locator('svg image').click({ position: { x: 60, y: 60 } });
+    await picker.getByText('Kitchen', { exact: true }).waitFor();
+    await picker.getByRole('button', { name: 'Use this place' }).click();
+    await expect.poll(async () => (await names(page))[0], { timeout: PATIENCE_MS }).toContain('“kitchen”');
     await proposal(page).getByRole('button', { name: 'Cancel' }).click();
     await proposal(page).getByRole('button', { name: 'No', exact: true }).click();
     await proposal(page).waitFor({ state: 'detached' });

@@ -102,8 +102,12 @@ describe.skipIf(!hasBrowser)('an operator', () => {
 
   it('has the plan on a page of its own on a phone', async () => {
     const page = await stage.open(sizes.phone);
-    await page.getByRole('button', { name: 'Menu' }).tap();
     await page.getByRole('link', { name: 'Plan' }).tap();
     await page.getByRole('heading', { name: 'Plan' }).waitFor();
+    const menu = page.getByRole('button', { name: 'Menu' });
+    expect((await menu.boundingBox())?.y).toBeGreaterThan(sizes.phone.height * 0.6); // where a thumb is
+    await menu.tap();
+    await page.getByRole('dialog', { name: 'Menu' }).getByRole('link', { name: 'Chat' }).tap();
+    await page.getByRole('textbox', { name: 'Write to David' }).waitFor();
   });
 });

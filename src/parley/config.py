@@ -281,7 +281,7 @@ class SystemConfig(BaseModel, TextFile):
     seed: int = 0
     """For everything random in the simulation."""
     speaks: SpokenLanguage = "en"
-    """The language of what robots say of their own accord; what the language engine words stays as it is."""
+    """The language in which robots speak on topics and in the terminal; what a model words stays as it is."""
     history_exchanges: int = Field(default=10, ge=0, le=1000)
     """Exchanges of a conversation that are context for the next message."""
     max_attempts: int = Field(default=3, ge=1, le=20)

@@ -45,7 +45,7 @@ EVENTS = [
 
 
 SENT_ET = "Kim (phone) ütles mulle kell 10:04: „go to the box“. Lee ütles selle kohta jah."
-DID_ET = "10:04: Ada alustas: Go to the box. Lee ütles selle kohta jah."
+DID_ET = "10:04: Ada alustas: Mine kohta box. Lee ütles selle kohta jah."
 
 
 def entries(events: list[AuditEvent]) -> list[AuditEntry]:
@@ -77,8 +77,8 @@ def answer(text: str, *, asker: str = "Pat", log: list[AuditEvent] = EVENTS) -> 
         ("Kes sind sinna saatis?", SENT_ET),
         ("kes käskis sul seda teha?", SENT_ET),
         ("kes su peatas?", "Kim (phone) peatas mu kell 10:09."),
-        ("kes ütles sellele jah?", "Lee ütles jah kell 10:03: Go to the box."),
-        ("mida sa täna tegid?", f"09:04: Ada tegi ära: Look at the door. {DID_ET}"),
+        ("kes ütles sellele jah?", "Lee ütles jah kell 10:03: Mine kohta box."),
+        ("mida sa täna tegid?", f"09:04: Ada tegi ära: Vaata door. {DID_ET}"),
         ("mida sa kella kümnest alates teinud oled?", DID_ET),
     ],
 )  # fmt: skip

@@ -119,9 +119,10 @@ class Page:
         self.io.on("view", self._on_view)
         self.io.on("frame", self._on_frame)
 
-    async def open(self, url: str, *, again: bool = False, **options: Any) -> None:
+    async def open(self, url: str, *, again: bool = False, language: str = "en", **options: Any) -> None:
         """Connect, as somebody new or after a break."""
         auth = {"run": self.run, "since": self.seq} if again else {}
+        auth["language"] = language
         await self.io.connect(url, auth=auth, transports=["websocket"], **options)
 
     @property

@@ -62,6 +62,26 @@ async def test_two_pages_know_the_same() -> None:
         assert applied(one) == applied(two)
 
 
+async def test_each_page_is_told_in_its_own_language_and_answers_with_what_was_offered() -> None:
+    async with served("Ada") as rig:
+        rig.robots.say("I will go to the box.")
+        await rig.until(lambda: rig.server.backend.state.chat.entries)
+        english, estonian = await rig.page(), await rig.page(language="et-EE")
+        rig.robots.ask("Where shall I bring it?", "stay here", "the den")
+        for page in (english, estonian):
+            await until_it_heard(page, 1)
+        assert [english.snapshots[0]["chat"][0]["message"]] == ["I will go to the box."]
+        assert [estonian.snapshots[0]["chat"][0]["message"]] == ["Teen nii: mine kohta box."]
+        asked = estonian.of("chat")[0]["entry"]
+        assert asked["message"] == "Kuhu ma selle viin?"
+        assert (asked["choices"], asked["shown_choices"]) == (["stay here", "the den"], ["jää siia", "den"])
+        header = {"accept-language": "et"}
+        found = (await rig.http.get("/api/chat", headers=header)).json()["entries"]
+        assert found[0]["message"] == "Teen nii: mine kohta box."
+        missing = await rig.http.get("/api/chat/images/none", headers=header)
+        assert missing.json()["detail"] == "Seda pilti enam ei hoita."
+
+
 async def test_after_a_break_a_page_gets_what_it_missed_and_only_that() -> None:
     async with served("Ada") as rig:
         page = await rig.page()

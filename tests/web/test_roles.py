@@ -45,6 +45,7 @@ BODIES: dict[tuple[str, str], list[tuple[Any, Effect]]] = {
     ("POST", "/api/robots"): [({"name": "Kim's cart"}, Effect.SETTING)],
     ("PUT", "/api/memory"): [({"data": "the box is red"}, Effect.REMEMBER)],
     ("PUT", "/api/favourites"): [({"words": "go to the box"}, Effect.SPEAK)],
+    ("PUT", "/api/push"): [({"endpoint": "https://localhost/", "p256dh": "x", "auth": "x"}, Effect.SEE)],
     ("PUT", "/api/rules/{rule_id}"): [
         ({"id": "r1", "name": "hall", "kind": "keep_out", "rectangle": [0, 0, 1, 1]}, Effect.RULE)
     ],

@@ -14,8 +14,6 @@ import { useHashPath } from '@/ui/use-hash';
 import { Shell } from './shell';
 import { useSession } from './use-session';
 
-const localeOf = { en: 'en-GB', et: 'et-EE' } as const;
-
 /** The whole page: signed in or not, in the chosen look and language. */
 export function App() {
   const { theme, planColours, language } = usePrefs();
@@ -25,12 +23,12 @@ export function App() {
     if (i18next.language !== language) void i18next.changeLanguage(language);
   }, [theme, planColours, language]);
   const { state, refresh } = session;
-  useEffect(() => (state === 'open' ? connect(refresh) : undefined), [state, refresh]);
+  useEffect(() => (state === 'open' ? connect(language, refresh) : undefined), [state, refresh, language]);
   useEffect(() => (state === 'open' ? keepStopLine() : undefined), [state]);
   useEffect(holdSecondClicks, []);
   useEffect(keepFocus, []);
   return (
-    <I18nProvider locale={localeOf[language]}>
+    <I18nProvider locale={language === 'en' ? 'en-GB' : language}>
       <Router hook={useHashPath}>
         {session.state === 'locked' ? (
           <SignIn onSignedIn={session.refresh} />

@@ -1,7 +1,7 @@
 import { useTranslation } from 'react-i18next';
 
 import { FavouritesBox } from '@/features/favourites';
-import { ConnectionBanner, ModelNote, Sidebar, TopBar } from '@/features/menu';
+import { BottomBar, ConnectionBanner, ModelNote, Sidebar, TopBar } from '@/features/menu';
 import { OpenNote, RoleNote } from '@/features/people';
 import { AddRobot } from '@/features/robots';
 import { StopBanner } from '@/features/stop';
@@ -10,7 +10,7 @@ import { useStopping } from '@/state/stopping';
 import { Boundary } from '@/ui/boundary';
 import { Button } from '@/ui/button';
 import { StopButton } from '@/ui/stop-button';
-import { useLayout } from '@/ui/use-media';
+import { useIsLow, useLayout } from '@/ui/use-media';
 import { useShortcut } from '@/ui/use-shortcut';
 
 import { CommandPalette } from './command-palette';
@@ -32,6 +32,7 @@ interface Props {
 export function Shell(props: Props) {
   const { t } = useTranslation('common');
   const layout = useLayout();
+  const isHeld = !useIsLow() && layout === 'phone';
   const open = useOverlays((state) => state.set);
   const stop = useStopping((state) => state.stop);
   useShortcut('mod+k', () => open('commands'));
@@ -49,7 +50,7 @@ export function Shell(props: Props) {
       {layout === 'desktop' ? (
         <Sidebar />
       ) : (
-        <TopBar>
+        <TopBar hasMenu={!isHeld}>
           <StopButton />
         </TopBar>
       )}
@@ -73,6 +74,7 @@ export function Shell(props: Props) {
           </Boundary>
         </main>
       </div>
+      {isHeld && <BottomBar />}
       <Toasts />
       <CommandPalette />
       <ShortcutSheet />

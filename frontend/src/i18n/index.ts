@@ -1,11 +1,22 @@
-/** All words of the page. Each part has a file per language; a test compares them. */
+/** All words of the page. A language is a folder here, with a file for each part; a test compares them. */
 import i18next from 'i18next';
 import { initReactI18next } from 'react-i18next';
 
 import * as en from './en';
-import * as et from './et';
 
-export const languages = { en, et };
+const files = import.meta.glob<Record<string, unknown>>('./*/*.json', { eager: true, import: 'default' });
+
+export const languages: Readonly<Record<string, Record<string, Record<string, unknown>>>> = {};
+for (const [path, words] of Object.entries(files)) {
+  const [, language = '', part = ''] = path.replace('.json', '').split('/');
+  (languages as Record<string, Record<string, unknown>>)[language] = { ...languages[language], [part]: words };
+}
+
+/** A language's name in itself. */
+export function nameOfLanguage(language: string): string {
+  const name = new Intl.DisplayNames([language], { type: 'language' }).of(language) ?? language;
+  return name.charAt(0).toLocaleUpperCase(language) + name.slice(1);
+}
 
 /** Begin with a language. */
 export async function startWords(language: string): Promise<void> {

@@ -68,7 +68,10 @@ export async function request<T>(
   try {
     response = await fetch(`/api/${path}`, {
       method,
-      headers: sent === null ? {} : { 'Content-Type': 'application/json' },
+      headers: {
+        'Accept-Language': document.documentElement.lang || 'en',
+        ...(sent === null ? {} : { 'Content-Type': 'application/json' }),
+      },
       body: sent,
       credentials: 'same-origin',
       // What was pressed arrives, even if the page is closed at once.
@@ -231,5 +234,10 @@ export const getHandover = (wish: HistoryWish) => request<Handover>('GET', `hist
 
 /** Where one round is to be had as a file. */
 export const roundFile = (number: number, language: string) => `/api/history/file?${asked({ number, language })}`;
+
+/** With what a browser subscribes to being called. */
+export const getPushKey = () => request<{ key: string }>('GET', 'push');
+export const putPush = (body: { endpoint: string; p256dh: string; auth: string }) => request<unknown>('PUT', 'push', body);
+export const dropPush = (endpoint: string) => request<unknown>('DELETE', `push?endpoint=${part(endpoint)}`);
 
 export const getMap = (robot: string) => request<MapInfo>('GET', `map/${part(robot)}`);

@@ -23,17 +23,21 @@ const newest = new Map<string, { picture: ArrayBuffer; meta: FrameMeta }>();
 
 const keyOf = (feed: { robot: string; name: string }) => `${feed.robot}\n${feed.name}`;
 
+/** In which language the world was told. */
+let told = '';
+
 /**
  * Connect, and stay connected.
+ * @param language In which it is told what robots say.
  * @param onDoubt Called when it may have changed who this visitor is, or whether they are let in.
  * @returns How to hang up.
  */
-export function connect(onDoubt: () => void): () => void {
+export function connect(language: string, onDoubt: () => void): () => void {
   const live = () => useLive.getState();
   const opened = io({
     path: '/socket.io',
     transports: ['websocket', 'polling'],
-    auth: (send) => send({ run: live().world.run, since: live().world.seq }),
+    auth: (send) => send({ run: told === language ? live().world.run : '', since: live().world.seq, language }),
     reconnectionDelay: 500,
     reconnectionDelayMax: 4000,
     timeout: 8000,
@@ -61,7 +65,10 @@ export function connect(onDoubt: () => void): () => void {
     onDoubt();
     if (!opened.active) knockLater();
   });
-  opened.on('snapshot', (snapshot: Snapshot) => live().takeSnapshot(snapshot));
+  opened.on('snapshot', (snapshot: Snapshot) => {
+    told = language;
+    live().takeSnapshot(snapshot);
+  });
   opened.on('changes', (changes: Change[]) => live().takeChanges(changes));
   opened.on('view', (view: MapView) => live().takeView(view));
   opened.on('frame', onFrame);

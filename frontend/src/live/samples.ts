@@ -49,6 +49,7 @@ export const ability = (part: Partial<AbilityView> & { name: string }): AbilityV
 
 export const entry = (part: Partial<ChatEntry> & { id: string }): ChatEntry => ({
   seq: 0,
+  shown_choices: [],
   unix_ms: Date.UTC(2026, 0, 2, 10),
   who: 'robot',
   author: '',

@@ -2,8 +2,11 @@
 import { create } from 'zustand';
 import { createJSONStorage, persist } from 'zustand/middleware';
 
+import { languages } from '@/i18n';
+
 export type Theme = 'system' | 'light' | 'dark' | 'contrast';
-export type Language = 'en' | 'et';
+/** The name of a folder of `i18n`. */
+export type Language = string;
 /** `standard`: queued grey, working yellow, done green, stopped red, failed blue; `traffic`: failed red, working blue. */
 export type PlanColours = 'standard' | 'traffic';
 
@@ -24,7 +27,10 @@ interface Prefs {
   set: (change: Partial<Omit<Prefs, 'set'>>) => void;
 }
 
-const browserLanguage = (): Language => (navigator.language.startsWith('et') ? 'et' : 'en');
+function browserLanguage(): Language {
+  const [wanted = 'en'] = navigator.language.split('-');
+  return wanted in languages ? wanted : 'en';
+}
 
 export const usePrefs = create<Prefs>()(
   persist(

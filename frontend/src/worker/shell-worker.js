@@ -41,6 +41,26 @@ async function file(request) {
   return (await caches.match(request)) ?? fetch(request);
 }
 
+/** A robot waits for a person: said on the screen, unless a page is looked at, which says it itself. */
+async function tell({ title, body, tag }) {
+  const pages = await self.clients.matchAll({ type: 'window', includeUncontrolled: true });
+  if (pages.some((one) => one.visibilityState === 'visible')) return;
+  await self.registration.showNotification(title, { body, tag, icon: '/icon-192.png', requireInteraction: true });
+}
+
+/** The page that is open comes to the front, or a new one is opened. */
+async function show() {
+  const [first] = await self.clients.matchAll({ type: 'window', includeUncontrolled: true });
+  await (first ? first.focus() : self.clients.openWindow(PAGE));
+}
+
+self.addEventListener('push', (event) => event.waitUntil(tell(event.data.json())));
+
+self.addEventListener('notificationclick', (event) => {
+  event.notification.close();
+  event.waitUntil(show());
+});
+
 self.addEventListener('fetch', (event) => {
   const { request } = event;
   const { origin, pathname } = new URL(request.url);

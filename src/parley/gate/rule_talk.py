@@ -19,7 +19,7 @@ from parley.latest import Latest
 from parley.messages.principal import Principal
 from parley.messages.rules import Rule
 from parley.messages.status import ActionInfo
-from parley.sentences import in_language, listed, sentence, together
+from parley.sentences import LANGUAGES, in_language, listed, sentence, together
 from parley.world.object_map import MapArea, MapObject
 
 __all__ = ["Listener", "RuleConfirmations", "RuleReply", "RuleTalk", "left_over_rule"]
@@ -188,7 +188,7 @@ def _plain(text: str) -> str:
 
 
 def _forms(label: str) -> set[str]:
-    return {_plain(in_language(label, language)) for language in ("en", "et")}
+    return {_plain(in_language(label, language)) for language in LANGUAGES}
 
 
 class RuleTalk:

@@ -1,8 +1,10 @@
-"""Sentences that robots say of their own accord, in the language that is wanted.
+"""Sentences that robots say, in the language that is wanted.
 
 The English words stand where they are said and are the key: `sentence` keeps them apart from what is filled
-in, so that whoever puts the text on a topic can say it in another language (`in_language`). Words without
-anything to fill in are found as they are. What language engines and people say stays as it is.
+in, so that whoever shows the text can say it in another language (`in_language`). A text of which nobody
+knows any more what it was made of is looked for among all forms (`forms`). What people said stays as it is.
+
+A language is a file here, named after it: ``et.yaml``. Nothing else is needed.
 """
 
 from __future__ import annotations
@@ -10,13 +12,31 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cache
 from importlib import resources
-from typing import Literal, Self
+from typing import Annotated, Final, Self
 
 import yaml
+from pydantic import AfterValidator
 
-__all__ = ["Sentence", "SpokenLanguage", "in_language", "listed", "sentence", "together"]
+from parley.sentences.forms import Catalogue, is_own
 
-SpokenLanguage = Literal["en", "et"]
+__all__ = ["LANGUAGES", "Sentence", "SpokenLanguage", "in_language", "listed", "sentence", "together"]
+
+_FILES: Final = resources.files("parley.sentences")
+LANGUAGES: Final = (
+    "en",
+    *sorted(file.name[:-5] for file in _FILES.iterdir() if file.name.endswith(".yaml")),
+)
+"""English, and those that have a file."""
+
+
+def _known(language: str) -> str:
+    if language not in LANGUAGES:
+        raise ValueError(f"there is no language {language}; there are: {', '.join(LANGUAGES)}")
+    return language
+
+
+SpokenLanguage = Annotated[str, AfterValidator(_known)]
+"""The name of a language that has a file."""
 
 
 class Sentence(str):
@@ -54,18 +74,18 @@ def in_language(text: str, language: SpokenLanguage) -> str:
     """`text` in another language, as far as it is one of these sentences or made of them."""
     if language == "en":
         return str(text)
-    table = _table(language)
+    catalogue = _catalogue(language)
     if not isinstance(text, Sentence):
-        return table.get(text, text)
+        return catalogue.said(text)
+    template = text.template
     values = {
-        name: in_language(value, language) if isinstance(value, Sentence) else value
+        name: in_language(value, language) if isinstance(value, str) and not is_own(template, name) else value
         for name, value in text.values.items()
     }
-    return table.get(text.template, text.template).format(**values)
+    return catalogue.filled(template, values)
 
 
 @cache
-def _table(language: SpokenLanguage) -> dict[str, str]:
-    """English words -> those of another language."""
-    text = (resources.files("parley.sentences") / f"{language}.yaml").read_text(encoding="utf-8")
-    return {pair["en"]: pair[language] for pair in yaml.safe_load(text)}
+def _catalogue(language: SpokenLanguage) -> Catalogue:
+    text = (_FILES / f"{language}.yaml").read_text(encoding="utf-8")
+    return Catalogue({pair["en"]: pair[language] for pair in yaml.safe_load(text)})

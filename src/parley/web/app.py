@@ -33,6 +33,7 @@ from parley.web.routes import (
     models,
     people,
     plans,
+    push,
     robots,
     rules,
     session,
@@ -44,7 +45,7 @@ __all__ = ["create_api", "create_app", "openapi_text"]
 
 _RESOURCES = (
     health, session, me, people, snapshot, chat, favourites, stop, plans, robots, memory, rules, incidents,
-    log, history, map, models, feeds,
+    log, history, map, models, feeds, push,
 )  # fmt: skip
 
 

@@ -8,6 +8,7 @@ import uuid
 from collections.abc import Callable, Coroutine, Sequence
 from contextlib import AsyncExitStack, suppress
 from typing import Any, Final, Self
+from urllib.parse import urlsplit
 
 import structlog
 
@@ -32,6 +33,7 @@ from parley.web.models import ChatEntry, Favourite, Policy, RobotView, ServerInf
 from parley.web.people.store import FILE, PeopleStore
 from parley.web.pictures import kept_picture
 from parley.web.problems import WebProblem
+from parley.web.push import Pusher
 from parley.web.sessions import Sessions
 from parley.web.state import WebState
 from parley.web.stopping import Stopper
@@ -63,6 +65,7 @@ class Backend:
     store: WebStore
     link: Link
     feeds: Feeds
+    pusher: Pusher
 
     stopper: Stopper
 
@@ -147,6 +150,16 @@ class Backend:
         watch = asyncio.create_task(self.sessions.watch(), name="web people")
         self._stack.push_async_callback(_cancel, watch)
         await self._settle_unsent()
+        self.pusher = await enter(
+            Pusher(
+                self.store,
+                self.state,
+                self.sessions,
+                folder=folder,
+                services=self.config.push_services,
+                contact=f"https://{urlsplit(next(iter(self.addresses), '')).hostname or 'localhost'}",
+            )
+        )
         self.feeds = await enter(
             Feeds(self.transport, self.state.feeds, lambda: list(self.state.robots.views), self._on_picture)
         )

@@ -270,6 +270,21 @@ class FavouritePut(WebModel):
     """The name it had so far; empty: it is new."""
 
 
+class PushKey(WebModel):
+    """What a browser needs to be called."""
+
+    key: str
+    """The server's public key."""
+
+
+class PushPut(WebModel):
+    """Where a browser is called, as it says itself."""
+
+    endpoint: Annotated[str, StringConstraints(min_length=1, max_length=1000)]
+    p256dh: Annotated[str, StringConstraints(min_length=1, max_length=200)]
+    auth: Annotated[str, StringConstraints(min_length=1, max_length=100)]
+
+
 class ChatPage(WebModel):
     """A piece of the conversation."""
 

@@ -56,6 +56,13 @@ class WebConfig(BaseModel):
     unattended: Unattended = "go_on"
     """What the robots do when nobody is connected; see `parley.config.SystemConfig`."""
     unattended_after_s: float = 30.0
+    push_services: tuple[str, ...] = (
+        "https://fcm.googleapis.com",
+        "https://*.push.services.mozilla.com",
+        "https://*.push.apple.com",
+        "https://*.notify.windows.com",
+    )
+    """Where devices may be called whose page is closed: the services of browsers' makers."""
     data_dir: Path | None = None
     """Where the conversation and a made certificate are kept; None: only while the server runs."""
     static_dir: Path | None = None

@@ -25,6 +25,7 @@ from parley.web.crowd import Crowd, Seat
 from parley.web.feed_state import Picture
 from parley.web.models import Change
 from parley.web.people.records import Gadget
+from parley.web.showing import language_of, shown_in
 
 __all__ = ["Live"]
 
@@ -83,6 +84,8 @@ class _Client:
     """Digest of the session it came with; empty where nobody has to sign in."""
     may: Principal | None = None
     """Who it is now."""
+    language: str = "en"
+    """In which it is told what robots say."""
 
 
 class Live:
@@ -94,7 +97,7 @@ class Live:
         self._crowd = Crowd(MAX_STRANGERS, MAX_CLIENTS)
         self._leaving: set[asyncio.Task[None]] = set()
         self._telling: asyncio.Task[None] | None = None
-        self._rendering: dict[int, dict[str, Any]] = {}
+        self._rendering: dict[tuple[int, str], dict[str, Any]] = {}
         self._closed = False
         self.server = socketio.AsyncServer(
             serializer=_Packet,
@@ -154,6 +157,7 @@ class Live:
         client.may = self._principal(client)
         if client.may is None:
             return False
+        client.language = language_of(str(auth.get("language", "")) if isinstance(auth, dict) else "")
         self._clients[sid] = client
         client.views = dict(self._backend.state.views) if seq >= 0 else {}
         client.wake.set()
@@ -315,16 +319,18 @@ class Live:
         if changes is None:
             snapshot = self._backend.snapshot()
             client.seq = snapshot.seq
-            await self._emit(client, "snapshot", _plain(snapshot))
+            await self._emit(client, "snapshot", shown_in(client.language, snapshot))
         elif changes:
             client.seq = changes[-1].seq
-            await self._emit(client, "changes", [self._rendered(change) for change in changes])
+            await self._emit(
+                client, "changes", [self._rendered(change, client.language) for change in changes]
+            )
 
-    def _rendered(self, change: Change) -> dict[str, Any]:
-        """A change as it travels; made once for all clients that are about in step."""
-        found = self._rendering.get(change.seq)
+    def _rendered(self, change: Change, language: str) -> dict[str, Any]:
+        """A change as it travels; made once for all clients of a language that are about in step."""
+        found = self._rendering.get((change.seq, language))
         if found is None:
-            found = self._rendering[change.seq] = _plain(change)
+            found = self._rendering[change.seq, language] = shown_in(language, change)
             if len(self._rendering) > MAX_RENDERED:
                 del self._rendering[next(iter(self._rendering))]
         return found

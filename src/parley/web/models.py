@@ -113,6 +113,8 @@ class ChatEntry(WebModel):
     images: tuple[str, ...] = ()
     """Addresses of attached pictures, below this server."""
     choices: tuple[str, ...] = ()
+    shown_choices: tuple[str, ...] = ()
+    """The same as the reader is shown them; empty: as they are. What is answered is the choice itself."""
     rules: tuple[Rule, ...] = ()
     """What a yes would make rules, to be drawn on the map before it."""
     sources: tuple[str, ...] = ()

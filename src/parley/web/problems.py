@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from http import HTTPStatus
 from typing import Any, Final
 
@@ -19,8 +20,10 @@ from parley.errors import (
     TransportTimeoutError,
     UnavailableError,
 )
+from parley.sentences import SpokenLanguage
 from parley.web.bodies import ProblemDetail
 from parley.web.people.store import PeopleError
+from parley.web.showing import language_of, shown_in
 
 __all__ = ["RESPONSES", "WebProblem", "install", "problem_response"]
 
@@ -79,7 +82,7 @@ class WebProblem(ParleyError):  # noqa: N818 - an answer, not a defect of the pr
         super().__init__(detail)
 
 
-def problem_response(problem: WebProblem) -> Response:
+def problem_response(problem: WebProblem, language: SpokenLanguage = "en") -> Response:
     """The answer that tells of a problem."""
     body = ProblemDetail(
         title=_TITLES.get(problem.status) or HTTPStatus(problem.status).phrase,
@@ -89,7 +92,10 @@ def problem_response(problem: WebProblem) -> Response:
         path=problem.path,
     )
     return Response(
-        body.model_dump_json(), status_code=problem.status, media_type=MEDIA_TYPE, headers=problem.headers
+        json.dumps(shown_in(language, body)),
+        status_code=problem.status,
+        media_type=MEDIA_TYPE,
+        headers=problem.headers,
     )
 
 
@@ -115,35 +121,41 @@ def translate(error: ParleyError) -> WebProblem:
     return WebProblem(500, "Something went wrong here.", "Try again.")
 
 
+def _reader(request: Request) -> SpokenLanguage:
+    return language_of(request.headers.get("accept-language", ""))
+
+
 def install(app: FastAPI) -> None:
     """Answer everything that is refused in this form."""
 
-    async def ours(_: Request, error: Exception) -> Response:
+    async def ours(request: Request, error: Exception) -> Response:
         problem = translate(error if isinstance(error, ParleyError) else ParleyError(str(error)))
         if problem.status >= 500:
             log.warning("request failed", status=problem.status, error=str(error))
-        return problem_response(problem)
+        return problem_response(problem, _reader(request))
 
-    async def invalid(_: Request, error: Exception) -> Response:
+    async def invalid(request: Request, error: Exception) -> Response:
         assert isinstance(error, RequestValidationError)
         first = error.errors()[0]
         where = [str(part) for part in first["loc"]]
         path = ".".join(where[1:] if where[:1] in (["body"], ["query"], ["path"]) else where)
         if first["type"] == "json_invalid":
-            return problem_response(WebProblem(400, "The request is not valid JSON."))
+            return problem_response(WebProblem(400, "The request is not valid JSON."), _reader(request))
         text = f"{path or 'The request'}: {first['msg']}."
-        return problem_response(WebProblem(422, text, "Correct it and send it again.", path=path))
+        problem = WebProblem(422, text, "Correct it and send it again.", path=path)
+        return problem_response(problem, _reader(request))
 
-    async def plain(_: Request, error: Exception) -> Response:
+    async def plain(request: Request, error: Exception) -> Response:
         assert isinstance(error, HTTPException)
         detail = {404: "There is nothing under this address.", 405: "This address does not take that."}
         text = detail.get(error.status_code, "That cannot be done.")
         headers = dict(error.headers or {})
-        return problem_response(WebProblem(error.status_code, text, headers=headers))
+        return problem_response(WebProblem(error.status_code, text, headers=headers), _reader(request))
 
     async def defect(request: Request, error: Exception) -> Response:
         log.error("request broke", path=request.url.path, exc_info=error)
-        return problem_response(WebProblem(500, "Something went wrong here.", "Try again."))
+        problem = WebProblem(500, "Something went wrong here.", "Try again.")
+        return problem_response(problem, _reader(request))
 
     app.add_exception_handler(ParleyError, ours)
     app.add_exception_handler(RequestValidationError, invalid)

@@ -20,7 +20,7 @@ export function Choices({ entry, onChoose, isStop = true }: Props) {
       {entry.choices.map((choice, index) => (
         <Button needs="speak" key={choice} excludeFromTabOrder={!isStop} onPress={() => onChoose(entry, choice)}>
           {entry.choices.length > 1 && <span aria-hidden="true" className={css.number}>{index + 1}</span>}
-          {choice}
+          {entry.shown_choices?.[index] ?? choice}
         </Button>
       ))}
     </div>

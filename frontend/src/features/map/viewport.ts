@@ -1,7 +1,8 @@
 /** What part of a map is on the screen. Plain functions; metres in the map, pixels on the screen. */
-import type { MapInfo, MapRoom, MapThing } from '@/live/types';
+import type { MapInfo, MapThing } from '@/live/types';
 import { bounds, type Place } from '@/ui/map-bounds';
 
+export { roomAt, thingAt } from '@/ui/map-places';
 export { bounds, type Place };
 
 export interface Size {
@@ -67,19 +68,6 @@ export function pan(view: Viewport, map: MapInfo, dx: number, dy: number): Viewp
   };
 }
 
-/** The thing at a place, the smallest of several; those too small for a finger count a little around them too. */
-export function thingAt(things: readonly MapThing[], place: Place, reachM: number): MapThing | null {
-  const hit = things.filter(
-    (thing) =>
-      Math.abs(place.x - thing.x) <= Math.max(thing.width / 2, reachM) &&
-      Math.abs(place.y - thing.y) <= Math.max(thing.height / 2, reachM),
-  );
-  return hit.reduce<MapThing | null>(
-    (best, thing) => (!best || thing.width * thing.height < best.width * best.height ? thing : best),
-    null,
-  );
-}
-
 /** From so many pixels per metre there is room for more than what kind of thing it is. */
 export const LONG_NAMES_SCALE = 60;
 
@@ -140,17 +128,8 @@ export function roomForLabels(
   return written;
 }
 
-/** The room at a place, the smallest of several. */
-export const roomAt = (rooms: readonly MapRoom[], place: Place): MapRoom | null =>
-  rooms.filter((room) => isInside(room, place)).sort((a, b) => areaOf(a) - areaOf(b))[0] ?? null;
-
 /** The middle of a room's corners. */
 export const middleOf = ({ corners }: { corners: readonly (readonly [number, number])[] }): Place => ({
   x: corners.reduce((sum, [x]) => sum + x, 0) / corners.length,
   y: corners.reduce((sum, [, y]) => sum + y, 0) / corners.length,
 });
-
-const edges = ({ corners }: MapRoom) => corners.map((corner, index) => [corner, corners[(index + 1) % corners.length] ?? corner] as const);
-const areaOf = (room: MapRoom) => Math.abs(edges(room).reduce((sum, [[x, y], [u, v]]) => sum + x * v - u * y, 0)) / 2;
-const isInside = (room: MapRoom, at: Place) =>
-  edges(room).filter(([[x, y], [u, v]]) => y > at.y !== v > at.y && at.x < ((u - x) * (at.y - y)) / (v - y) + x).length % 2 === 1;

@@ -1,3 +1,4 @@
+export { BottomBar } from './bottom-bar';
 export { ConnectionBanner } from './connection-banner';
 export { ModelNote } from './understands';
 export { here, offered, pathOf, type Page } from './pages';

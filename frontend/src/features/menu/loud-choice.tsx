@@ -3,6 +3,7 @@ import { useTranslation } from 'react-i18next';
 import { usePrefs } from '@/state/prefs';
 import { Button } from '@/ui/button';
 
+import { CallChoice } from './call-choice';
 import css from './settings-page.module.css';
 
 /** Whether robots that wait are heard; the browser is asked only when somebody wants that. */
@@ -20,6 +21,7 @@ export function LoudChoice() {
       <Button aria-pressed={loud} onPress={turn}>
         {loud ? t('loudEnd') : t('loudBegin')}
       </Button>
+      <CallChoice />
     </section>
   );
 }

@@ -1,7 +1,8 @@
 import { useTranslation } from 'react-i18next';
 
+import { languages, nameOfLanguage } from '@/i18n';
 import { useWorld } from '@/live/store';
-import { usePrefs, type Language, type PlanColours, type Theme } from '@/state/prefs';
+import { usePrefs, type PlanColours, type Theme } from '@/state/prefs';
 import { Choice } from '@/ui/choice';
 import { Panel } from '@/ui/panel';
 
@@ -11,11 +12,7 @@ import css from './settings-page.module.css';
 
 const themes: readonly Theme[] = ['system', 'light', 'dark', 'contrast'];
 const colours: readonly PlanColours[] = ['standard', 'traffic'];
-/** Each language is named in itself. */
-const languages: readonly { id: Language; label: string }[] = [
-  { id: 'en', label: 'English' },
-  { id: 'et', label: 'Eesti' },
-];
+const tongues = Object.keys(languages).map((id) => ({ id, label: nameOfLanguage(id) }));
 const NO_ADDRESSES: readonly string[] = [];
 
 /** Choices of this person, and what there is to know of the system. @param children What stands below. */
@@ -25,7 +22,7 @@ export function SettingsPage({ children }: { children?: React.ReactNode }) {
   return (
     <Panel title={t('settings')}>
       <div className={css.settings}>
-        <Choice label={t('language')} value={prefs.language} options={languages} onChange={(language) => prefs.set({ language })} />
+        <Choice label={t('language')} value={prefs.language} options={tongues} onChange={(language) => prefs.set({ language })} />
         <Choice
           label={t('theme')}
           value={prefs.theme}

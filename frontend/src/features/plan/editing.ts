@@ -106,9 +106,13 @@ const filled = (step: DraftStep, template: string) =>
     return value === null || value === undefined || value === '' ? '…' : quoted(value);
   });
 
-/** The server's label with a value changed in it. */
-const renamed = (label: string, before: unknown, value: Value) =>
-  before === null || before === undefined ? label : label.replace(quoted(before), () => quoted(value));
+/** The server's label with a value changed in it; each language has quotation marks of its own. */
+function renamed(label: string, before: unknown, value: Value): string {
+  if (before === null || before === undefined) return label;
+  const marks = ['“”', '„“'].find(([open, close]) => label.includes(`${open}${String(before)}${close}`));
+  const [open = '', close = ''] = typeof before === 'string' ? (marks ?? '“”') : '';
+  return label.replace(`${open}${String(before)}${close}`, () => `${open}${String(value)}${close}`);
+}
 
 /** Move the steps `ids` in front of or behind `target`. */
 export function moved(

@@ -9,13 +9,13 @@ import { TextField } from '@/ui/text-field';
 import { inWords, sentence } from '@/ui/words';
 
 import { inputsOf, type DraftStep } from './editing';
+import { PlacePicker, type Places } from './place-picker';
 import css from './plan-editor.module.css';
 
 interface Props {
   step: DraftStep;
   catalogue: readonly AbilityView[];
-  /** What robots can be sent to. */
-  places: readonly string[];
+  places: Places;
   isFirst: boolean;
   isLast: boolean;
   onMove: (by: -1 | 1) => void;
@@ -55,7 +55,7 @@ export function EditorRow({ step, catalogue, places, isFirst, isLast, onMove, on
 interface InputProps {
   input: ParameterView;
   about: ParameterInfo | undefined;
-  places: readonly string[];
+  places: Places;
   onChange: (value: string | number | boolean) => void;
 }
 
@@ -64,7 +64,15 @@ function Input({ input, about, places, onChange }: InputProps) {
   const { t } = useTranslation('plan');
   const label = labelOf(input, about, t('place'));
   const value = String(input.value ?? '');
-  const listed = about?.kind === 'place' ? places : (about?.choices ?? []);
+  if (about?.kind === 'place' && places.names.length > 0) {
+    return (
+      <div className={css.place}>
+        <Listed label={label} value={value} listed={places.names} onChange={onChange} />
+        <PlacePicker places={places} label={label} onPick={onChange} />
+      </div>
+    );
+  }
+  const listed = about?.choices ?? [];
   if (listed.length > 0) return <Listed label={label} value={value} listed={listed} onChange={onChange} />;
   if (input.type === 'bool') {
     return (

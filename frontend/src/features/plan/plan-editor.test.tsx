@@ -42,5 +42,10 @@ describe('editing a plan', () => {
     await user.click(screen.getByRole('option', { name: 'Red box' }));
     screen.getByText('Go to “red box”');
     expect(screen.queryByRole('textbox')).toBeNull();
+    await user.click(screen.getByRole('button', { name: 'On the map' }));
+    const map = screen.getByRole('dialog', { name: 'Place' });
+    expect(within(map).getByRole('button', { name: 'Use this place' })).toHaveProperty('disabled', true);
+    await user.click(within(map).getByRole('button', { name: 'Cancel' }));
+    screen.getByText('Go to “red box”');
   });
 });

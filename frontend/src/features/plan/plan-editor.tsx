@@ -10,6 +10,7 @@ import { useMap } from '@/ui/use-map';
 
 import { addables, callsOf, moved, nameOfAction, newStep, nudged, setInput, type DraftStep } from './editing';
 import { EditorRow } from './editor-row';
+import { nothing, placesOf, type Places } from './place-picker';
 import css from './plan-editor.module.css';
 
 interface Props {
@@ -127,17 +128,12 @@ export function PlanEditor({ robot, steps: initial, saveLabel, onSave, onCancel 
   );
 }
 
-/** What robots can be sent to, by the names that mean just one. */
-function usePlaces(robot: string): readonly string[] {
+/** What a robot can be sent to. */
+function usePlaces(robot: string): Places {
   const mapName = useWorld((world) => world.views[robot]?.map_name ?? '');
   const shown = useMap(robot, mapName, 0);
   const map = shown.state === 'ready' ? shown.map : null;
-  return useMemo(() => {
-    const things = map?.objects ?? [];
-    const called = (name: string) => things.filter((one) => one.description === name).length;
-    const names = things.map((one) => (one.description && called(one.description) === 1 ? one.description : one.id));
-    return [...new Set([...names, ...(map?.rooms ?? []).map((room) => room.name)])].sort((a, b) => a.localeCompare(b));
-  }, [map]);
+  return useMemo(() => (map ? placesOf(map) : nothing), [map]);
 }
 
 /** Brings what was opened to the top of where it stands, and takes the keyboard there. */

@@ -2,7 +2,7 @@ import { act, render, screen, within } from '@testing-library/react';
 import userEvent from '@testing-library/user-event';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 
-import { ability, plan, robot, snapshot, step } from '@/live/samples';
+import { ability, mapInfo, plan, robot, snapshot, step } from '@/live/samples';
 import { useLive } from '@/live/store';
 import type { PlanView, StepState } from '@/live/types';
 import { useToasts } from '@/state/toasts';
@@ -17,7 +17,7 @@ beforeEach(() => {
   status = 200;
   vi.stubGlobal('fetch', (path: string, options: RequestInit) => {
     sent.push({ method: options.method ?? '', path, body: JSON.parse(String(options.body)) });
-    return Promise.resolve(new Response('{}', { status }));
+    return Promise.resolve(new Response(JSON.stringify(path.includes('/map/') ? mapInfo : {}), { status }));
   });
 });
 

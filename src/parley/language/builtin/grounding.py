@@ -176,8 +176,8 @@ class Grounder:
         near = sorted(objects, key=lambda item: distance_m(item, pose)) if pose is not None else objects
         names = list(dict.fromkeys(with_article(item.description) for item in near))[:_SHOWN]
         unknown = f"I do not know any “{text}” here{', so I cannot go there' if leads else ''}."
-        can = "I can go to" if leads else "I know"
-        shown = f" {can} {', '.join(names[:-1])} or {names[-1]}, for example." if len(names) > 1 else ""
+        named = f"{', '.join(names[:-1])} or {names[-1]}, for example." if len(names) > 1 else ""
+        shown = f" {'I can go to' if leads else 'I know'} {named}" if named else ""
         return Ask(f"{unknown}{shown} Which {'place' if leads else 'thing or place'} do you mean?")
 
     def _spoken_of(self, filler: Filler, mention: Mention) -> Value | Ask | None:

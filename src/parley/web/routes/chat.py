@@ -13,6 +13,7 @@ from parley.web.bodies import ChatPage, ChatPost
 from parley.web.models import ChatEntry
 from parley.web.problems import WebProblem
 from parley.web.routes.access import Web, Who, may, module
+from parley.web.showing import Reader, shown_in
 
 __all__ = ["router"]
 
@@ -22,6 +23,7 @@ router = APIRouter(prefix="/chat", tags=["chat"], dependencies=[module("chat")])
 @router.get("", dependencies=[may(Effect.SEE)])
 async def get_chat(
     web: Web,
+    reader: Reader,
     before: Annotated[int | None, Query(ge=0, le=2**53)] = None,
     limit: Annotated[int, Query(ge=1, le=500)] = 50,
     q: Annotated[str, Query(max_length=200)] = "",
@@ -29,7 +31,7 @@ async def get_chat(
 ) -> ChatPage:
     """A piece of the conversation: the newest entries before `before` that contain all words of `q`."""
     entries, complete = await web.store.page(before=before, limit=limit, words=q, robot=robot)
-    return ChatPage(entries=tuple(entries), complete=complete)
+    return ChatPage.model_validate(shown_in(reader, ChatPage(entries=tuple(entries), complete=complete)))
 
 
 @router.post("", dependencies=[may(Effect.SPEAK, Effect.STOP)])

@@ -11,6 +11,7 @@ from parley.gate.table import Effect
 from parley.messages import topics
 from parley.messages.incident import GetIncidents, Incident, IncidentList
 from parley.web.routes.access import Web, may, module
+from parley.web.showing import Reader, shown_in
 
 __all__ = ["router"]
 
@@ -22,6 +23,7 @@ router = APIRouter(
 @router.get("")
 async def get_incidents(
     web: Web,
+    reader: Reader,
     robot: Annotated[str, Query(max_length=100)] = "",
     limit: Annotated[int, Query(ge=1, le=1000)] = 100,
 ) -> list[Incident]:
@@ -30,5 +32,5 @@ async def get_incidents(
         found = await web.link.ask(topics.GET_INCIDENTS, GetIncidents(robot=robot, limit=limit), IncidentList)
     except UnavailableError:
         heard = [item for item in web.state.incidents.values() if robot in ("", item.robot)]
-        return heard[::-1][:limit]
-    return list(found.incidents)
+        found = IncidentList(incidents=tuple(heard[::-1][:limit]))
+    return list(IncidentList.model_validate(shown_in(reader, found)).incidents)

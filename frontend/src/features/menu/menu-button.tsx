@@ -1,0 +1,29 @@
+import { useState } from 'react';
+import { Button as AriaButton, Dialog, DialogTrigger, Popover } from 'react-aria-components';
+import { useTranslation } from 'react-i18next';
+
+import { Icon } from '@/ui/icon';
+
+import css from './menu.module.css';
+import { NavLinks } from './nav-links';
+import { Understands } from './understands';
+
+/** Opens the list of all pages. */
+export function MenuButton({ className, placement }: { className?: string | undefined; placement: 'bottom start' | 'top end' }) {
+  const { t } = useTranslation('menu');
+  const [open, setOpen] = useState(false);
+  return (
+    <DialogTrigger isOpen={open} onOpenChange={setOpen}>
+      <AriaButton className={className ?? ''}>
+        <Icon name="menu" />
+        <span>{t('menu')}</span>
+      </AriaButton>
+      <Popover className={css.drop ?? ''} placement={placement}>
+        <Dialog aria-label={t('menu')} className={css.dropBody ?? ''}>
+          <NavLinks onGo={() => setOpen(false)} />
+          <Understands />
+        </Dialog>
+      </Popover>
+    </DialogTrigger>
+  );
+}
