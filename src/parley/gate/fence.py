@@ -107,6 +107,8 @@ class Fence:
             The same, slower, or turning on the spot: a round robot always may.
         """
         speed, turn = command
+        if not self._book.in_force:
+            return 0.0, 0.0
         rules = [
             rule for rule in self._book.active(self._robot) if rule.kind in ("keep_out", "slow", "speed")
         ]
