@@ -27,6 +27,7 @@ LAYERS: tuple[frozenset[str], ...] = (
             "site",
             "system",
             "engines",
+            "deployment",
             "nodes",
             "api",
             "demos",
