@@ -18,6 +18,7 @@ from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.incident import Incident
 from parley.messages.map import MapView
 from parley.messages.memory import AddToMemory, MemoryEvent, RemoveMemory
+from parley.messages.robot import Notice, RulesInForce
 from parley.messages.status import (
     ActorStatus,
     GraphEvent,
@@ -59,6 +60,8 @@ PAYLOADS: dict[str, tuple[type[BaseModel], ...]] = {
     "/parley/map_view": (MapView,),
     "/parley/audit": (AuditEvent,),
     "/parley/attendance": (Attendance,),
+    "/parley/rules_in_force": (RulesInForce,),
+    "/parley/notice": (Notice,),
 }
 
 

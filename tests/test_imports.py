@@ -21,7 +21,21 @@ LAYERS: tuple[frozenset[str], ...] = (
     frozenset({"gate", "language", "robots", "engine", "actions"}),
     frozenset({"agents", "web"}),
     frozenset(
-        {"terminal", "network", "site", "system", "api", "demos", "bench", "evaluation", "doctor", "cli"}
+        {
+            "terminal",
+            "network",
+            "site",
+            "system",
+            "engines",
+            "deployment",
+            "nodes",
+            "api",
+            "demos",
+            "bench",
+            "evaluation",
+            "doctor",
+            "cli",
+        }
     ),
 )
 """Rooms by height, lowest first; rooms of one height may know each other."""

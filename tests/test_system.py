@@ -83,8 +83,8 @@ async def test_unreadable_record_of_stops_means_that_everybody_is_stopped_and_is
         await home.observer.until(
             lambda: any("count as stopped" in item.message for item in home.observer.said)
         )
-        await home.observer.until(lambda: any(item.state == "at_rest" for item in home.observer.stop_reports))
         assert all(home.system.stop_line.latched(name) for name in home.system.robot_names)
+        assert all(home.system.simulator.stopped(name) for name in home.system.robot_names)
 
 
 async def test_a_robot_asks_before_it_drives_past_somebody_whom_the_map_knows(tmp_path: Path) -> None:
@@ -92,6 +92,7 @@ async def test_a_robot_asks_before_it_drives_past_somebody_whom_the_map_knows(tm
     async with running(system) as home:
         (robot,) = system.robots.values()
         somebody = MapObject("1", "Ada", robot.pose().x_m, robot.pose().y_m, "person")
-        system.objects = ObjectMap((*system.objects.objects, somebody))
+        system.engines.objects = ObjectMap((*system.objects.objects, somebody))
+        system.engines.tell_sites()
         said = await home.say("go to the fridge")
         assert "Somebody stands in the way" in said.message

@@ -21,20 +21,30 @@ from parley.messages.attendance import Unattended
 from parley.sentences import SpokenLanguage
 
 __all__ = [
-    "ApprovalPolicy", "CallSettings", "EmailSettings", "EmbeddingSettings", "FeedSettings", "ModelPrice",
-    "ModelSettings", "NetworkSettings", "SystemConfig", "TlsSettings",
+    "FOLDER",
+    "ApprovalPolicy",
+    "CallSettings",
+    "EmailSettings",
+    "EmbeddingSettings",
+    "FeedSettings",
+    "ModelPrice",
+    "ModelSettings",
+    "NetworkSettings",
+    "SystemConfig",
+    "TlsSettings",
     "language_name",
 ]  # fmt: skip
 
 ApprovalPolicy = Literal["run_at_once", "ask_when_risky", "ask_first"]
 """Which plans wait for a person's yes: none, those with a step of high risk, all."""
 
-_FOLDER = "folder"
+FOLDER = "folder"
+"""Where a file of settings lies, for its validators."""
 
 
 def _beside(path: Path, info: ValidationInfo) -> Path:
     """A path in a file of settings counts from that file's folder."""
-    folder = (info.context or {}).get(_FOLDER)
+    folder = (info.context or {}).get(FOLDER)
     return path if folder is None else folder / path.expanduser()
 
 
@@ -304,7 +314,7 @@ class SystemConfig(BaseModel, TextFile):
         Raises:
             FileFormatError: Names the file, the line and the setting that is wrong or unknown.
         """
-        return validated_yaml(cls, read_text(path), path.name, {_FOLDER: path.parent})
+        return validated_yaml(cls, read_text(path), path.name, {FOLDER: path.parent})
 
     @classmethod
     def parse(cls, text: str, file: str = "settings") -> Self:

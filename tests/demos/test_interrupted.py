@@ -137,7 +137,7 @@ async def test_a_graph_with_branches_goes_on_when_told_and_asks_again_only_what_
         assert (await home.question()).message == "Which way?"
         async with asyncio.timeout(PATIENCE_S):
             await found.wait()  # both branches begin at once, and either may be the slower one
-        journal = home.system._journal
+        journal = home.system.engines.journal
         assert journal is not None
         await journal.flush()
         for file in before.glob("journal.db*"):  # what a kill would leave now

@@ -6,13 +6,14 @@ import json
 from typing import Any
 
 from parley.agents.audit_log import AuditLog
-from parley.agents.rules.rules import MapOf, RuleNode
+from parley.agents.rules.rules import RuleNode
 from parley.clock import SimClock
 from parley.gate.audit_store import AuditStore
 from parley.gate.book import RuleBook
 from parley.gate.rules import RuleKeeper
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.sim.floor_plan import survey
+from parley.world.telling import Surroundings
 from tests.sim.worlds import two_rooms
 from tests.web.rig import served
 
@@ -21,7 +22,7 @@ DOOR = {"id": "door", "kind": "keep_out", "name": "north door", "rectangle": [2.
 
 async def test_rules_are_looked_at_changed_and_tried() -> None:
     world = two_rooms()
-    floor = MapOf(survey(world, 0.3), world.object_map().objects)
+    floor = Surroundings(survey(world, 0.3), world.object_map())
     async with served("A") as rig:
         clock = SimClock()
         book = RuleBook(clock)

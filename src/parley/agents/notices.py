@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 from parley.agents.base import Node
 from parley.messages import topics
 from parley.messages.chat import ChatFeedback
-from parley.transport.base import Transport
+from parley.messages.robot import Notice
+from parley.messages.topics import Topic
+from parley.transport.base import Endpoint, Transport, absolute
 
-__all__ = ["Notices"]
+__all__ = ["Notices", "Notifier"]
+
+
+def _listeners(transport: Transport, topic: Topic[Any]) -> list[Endpoint]:
+    name = absolute(topic.name)
+    return [end for end in transport.endpoints() if end.role == "subscription" and end.name == name]
 
 
 class Notices(Node):
@@ -25,13 +32,17 @@ class Notices(Node):
         super().__init__(transport)
         self._waiting: list[ChatFeedback] = []
         self._nobody = 0
-        """How many listeners there are that are no person."""
+        """How many listeners of this process are no person."""
         self._heard = False
 
     async def open(self) -> None:
         """See `Node.open`."""
-        self._nobody = self._listeners()
+        self._nobody = sum(not end.elsewhere for end in self._listeners())
+        await self.subscribe(
+            topics.NOTICE, Notice, lambda told: self.tell(told.message, told.targets, told.type)
+        )
         self.opened.callback(self.transport.on_endpoints_changed(self._on_change))
+        self._on_change()
 
     def tell(self, text: str, targets: Sequence[str], kind: Literal["info", "error"] = "info") -> None:
         """Say `text` on behalf of the robots `targets`."""
@@ -40,17 +51,41 @@ class Notices(Node):
             self._say()
 
     def _on_change(self) -> None:
-        if not self._heard and self._listeners() > self._nobody:
+        ends = self._listeners()
+        if not self._heard and (len(ends) > self._nobody or any(end.elsewhere for end in ends)):
             self._heard = True
             self._say()
+
+    def _listeners(self) -> list[Endpoint]:
+        return _listeners(self.transport, topics.CHAT_FEEDBACK)
 
     def _say(self) -> None:
         waiting, self._waiting = self._waiting, []
         for feedback in waiting:
             self.publish(topics.CHAT_FEEDBACK, feedback)
 
-    def _listeners(self) -> int:
-        name = topics.CHAT_FEEDBACK.name.lstrip("/")
-        return sum(
-            end.role == "subscription" and end.name.lstrip("/") == name for end in self.transport.endpoints()
-        )
+
+class Notifier(Node):
+    """Hands what robots have to say by themselves to `Notices`, in whichever process and whenever that is."""
+
+    name: ClassVar[str] = "notifier"
+
+    def __init__(self, transport: Transport) -> None:
+        super().__init__(transport)
+        self._waiting: list[Notice] = []
+
+    async def open(self) -> None:
+        """See `Node.open`."""
+        self.announce(topics.NOTICE)
+        self.opened.callback(self.transport.on_endpoints_changed(self._say))
+
+    def tell(self, text: str, targets: Sequence[str], kind: Literal["info", "error"] = "info") -> None:
+        """Say `text` on behalf of the robots `targets`."""
+        self._waiting.append(Notice(message=self.spoken(text), targets=tuple(targets), type=kind))
+        self._say()
+
+    def _say(self) -> None:
+        if self._waiting and _listeners(self.transport, topics.NOTICE):
+            waiting, self._waiting = self._waiting, []
+            for notice in waiting:
+                self.publish(topics.NOTICE, notice)

@@ -23,6 +23,7 @@ _COMMANDS = {
     "transcripts": "sim",
     "graph": "sim", "actions": "", "robot": "", "language": "", "memory": "", "rules": "", "world": "sim",
     "prompt": "", "bench": "sim", "web": "web", "people": "web", "node": "zenoh",
+    "engine": "zenoh", "up": "zenoh",
 }  # fmt: skip
 """Command -> the extra that it needs, if any. Each is a module of this package: with `register` if it is one
 command, with an `app` if it is several."""

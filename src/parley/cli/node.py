@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
 import signal
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -24,7 +25,10 @@ from parley.extras import needs
 from parley.network import transport_of
 from parley.terminal import TerminalClient
 
-__all__ = ["app"]
+if TYPE_CHECKING:
+    from parley.system import System
+
+__all__ = ["NetworkOption", "app", "networked", "run_system"]
 
 app = typer.Typer(help="One part of a system, in a process of its own.", no_args_is_help=True)
 
@@ -40,7 +44,7 @@ def terminal(
 ) -> None:
     """Chat with the robots of another process or machine."""
     quiet_logs()
-    on_loop(_chat(_networked(config), lang))
+    on_loop(_chat(networked(config), lang))
 
 
 @app.command("web")
@@ -55,7 +59,7 @@ def web(
 ) -> None:
     """Serve the page for the robots of another process or machine."""
     quiet_logs(verbose)
-    settings = _networked(config)
+    settings = networked(config)
     page = page_settings(
         port=port, lan=lan, password_file=password_file, pair_as="operator",
         certificate=None, key=None, origins=(), without="",
@@ -64,11 +68,39 @@ def web(
     on_loop(_serve(settings, page, port_is_wish=port is None, opens=not no_open))
 
 
-def _networked(file: Path) -> SystemConfig:
+@app.command("agents")
+def agents(
+    config: NetworkOption,
+    data: Annotated[Path | None, typer.Option(help="Folder for memories, rules and records.")] = None,
+    verbose: Annotated[bool, typer.Option("--verbose", help="Show the log.")] = False,
+) -> None:
+    """Understand people, and plan and remember, for the robots of other processes."""
+    from parley.system import System
+
+    quiet_logs(verbose)
+    settings = networked(config).changed({} if data is None else {"data_dir": data})
+    on_loop(run_system(System(None, settings, part="agents")))
+
+
+def networked(file: Path) -> SystemConfig:
+    """Settings with a network among them.
+
+    Raises:
+        ConfigError: There is none, or the file is wrong.
+    """
     settings = SystemConfig.load(file)
     if settings.network is None:
         raise ConfigError(f"{file} names no network; write there what all parts share, e.g. network: {{}}")
     return settings
+
+
+async def run_system(system: System) -> None:
+    """Open it, say so, and stay until somebody ends it."""
+    async with system:
+        who = ", ".join(system.robot_names)
+        typer.echo(f"{who} can be planned for." if who else "Robots can be talked to.")
+        typer.echo("Ctrl-C ends it.")
+        await asyncio.Event().wait()
 
 
 async def _chat(settings: SystemConfig, lang: str) -> None:

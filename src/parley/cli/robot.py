@@ -21,7 +21,7 @@ from parley.robots.own import RobotBase
 from parley.site import Site
 from parley.world.geometry import Pose2D
 
-__all__ = ["app"]
+__all__ = ["app", "found_class", "made_robot"]
 
 FLOOR_M = 10.0
 """Where no map is given, so much free floor is taken for granted around the robot."""
@@ -51,7 +51,7 @@ def check(
 ) -> None:
     """Try out whether a robot stops, lets commands expire, knows where it is, and can be held. It moves!"""
     quiet_logs()
-    made = _made(_found(robot), name)
+    made = made_robot(found_class(robot), name)
     if not yes:
         with interruptible():
             yes = typer.confirm(f"{made.name} will drive forward, at most two metres. Is there room?")
@@ -90,8 +90,12 @@ def _floor_around(pose: Pose2D) -> Any:
     return replace(floor, origin_x_m=pose.x_m - FLOOR_M / 2, origin_y_m=pose.y_m - FLOOR_M / 2)
 
 
-def _found(text: str) -> Any:
-    """The class or function that is named."""
+def found_class(text: str) -> Any:
+    """The class or function that is named.
+
+    Raises:
+        ConfigError: There is none.
+    """
     module, _, attribute = text.rpartition(":")
     if not module or not attribute:
         raise ConfigError(f"{text!r} names no class: write MODULE:CLASS or FILE.py:CLASS")
@@ -108,7 +112,12 @@ def _found(text: str) -> Any:
     return getattr(loaded, attribute)
 
 
-def _made(make: Any, name: str) -> Robot:
+def made_robot(make: Any, name: str) -> Robot:
+    """The robot that a class or function makes.
+
+    Raises:
+        ConfigError: It makes none.
+    """
     if not callable(make):
         raise ConfigError(f"{make!r} is no class and no function")
     try:

@@ -24,9 +24,11 @@ from parley.engine.stop import EmergencyStop
 from parley.engine.stop_listener import StopListener
 from parley.engine.sync import PEER_TIMEOUT_S
 from parley.engine.together import Together
-from parley.errors import GraphRefusedError, InvalidMessageError, Problem, UnavailableError
+from parley.errors import ConfigError, GraphRefusedError, InvalidMessageError, Problem, UnavailableError
+from parley.gate.book import RuleBook
 from parley.gate.stop_line import StopLine
 from parley.messages import ros, topics
+from parley.messages.robot import RulesInForce
 from parley.messages.status import (
     ActionInfo,
     ActorStatus,
@@ -93,6 +95,8 @@ class ActionEngine:
         stop_timeout_s: Wall time a node may take to stop.
         peer_timeout_s: Wall time to wait for the engines of other actors in one graph.
         line: The line on which it is stopped, whose owner listens to `/parley/stop`; None: one of its own.
+        rules: By what `admit` and the robot's drive go; filled from what is told here, before the commands
+            that are told later. None: nothing is heard.
     """
 
     def __init__(
@@ -111,11 +115,12 @@ class ActionEngine:
         stop_timeout_s: float = STOP_TIMEOUT_S,
         peer_timeout_s: float = PEER_TIMEOUT_S,
         line: StopLine | None = None,
+        rules: RuleBook | None = None,
     ) -> None:
         self.actor = actor
         catalogue = catalogue if robot is None else catalogue.for_robot(robot.capabilities)
         self._transport, self._catalogue, self._clock = transport, catalogue, clock
-        self._journal = journal
+        self._journal, self._rules = journal, rules
         self._robot, self._heartbeat_s = robot, heartbeat_s
         self._own_line = line is None
         self._line = line or StopLine()
@@ -233,10 +238,11 @@ class ActionEngine:
         async def on(topic: Topic[C], take: Callable[[C], None]) -> None:
             """Commands of all topics are taken in the order in which they came."""
             known = 0
+            subscription: Subscription | None = None
 
             def handle(message: C) -> None:
                 nonlocal known
-                if (lost := subscription.dropped - known) > 0:
+                if subscription is not None and (lost := subscription.dropped - known) > 0:
                     known += lost
                     self._reject(topic.name, "", [_lost(lost)])
                 take(message)
@@ -263,6 +269,9 @@ class ActionEngine:
             topics.SYNC, lambda message: self._payload(topics.SYNC, SyncNotice, message, self._together.take)
         )
         stack.push_async_callback(sync.close)
+        if self._rules is not None:
+            rules = topics.RULES_IN_FORCE
+            await on(rules, lambda message: self._payload(rules, RulesInForce, message, self._hear_rules))
         await on(
             topics.GRAPH_START,
             lambda message: self._heavy_command(
@@ -395,6 +404,14 @@ class ActionEngine:
 
         if command.target in self._names:
             self._light(topics.STEP.name, command.graph_name, end)
+
+    def _hear_rules(self, told: RulesInForce) -> None:
+        assert self._rules is not None
+        try:
+            self._rules.hear(told)
+        except ConfigError as error:
+            problem = Problem("timezone", str(error), "install the time zones there, or name another", "zone")
+            self._reject(topics.RULES_IN_FORCE.name, "", [problem])
 
     async def _graph_get(self, request: ros.UmrfGraphGetRequest) -> ros.UmrfGraphGetResponse:
         return ros.UmrfGraphGetResponse(

@@ -4,12 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, Final
 
 from parley.umrf.model import ACTIVE, Graph, GraphState, Node, NodeState
 from parley.umrf.saved import SavedRun
 
-__all__ = ["Interrupted"]
+__all__ = ["FLOW_KEY", "Interrupted", "flow_of"]
+
+FLOW_KEY: Final = "parley_flow"
+"""Under `gui_attributes`, which engines carry along unread: what a node depends on."""
+
+
+def flow_of(node: Node) -> dict[str, Any]:
+    """What a node depends on, as the planner wrote it; empty: nothing."""
+    attributes = node.gui_attributes
+    flow = attributes.get(FLOW_KEY) if isinstance(attributes, dict) else None
+    return flow if isinstance(flow, dict) else {}
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +74,16 @@ class Interrupted:
             children == ([nodes[index + 1].ref] if index + 1 < len(nodes) else [])
             for index, (_, children) in enumerate(edges)
         )
+
+    @property
+    def has_flow(self) -> bool:
+        """Whether a planner wrote into it which steps depend on how others end, or run beside them."""
+        return any(flow_of(node) for node in self.graph.nodes)
+
+    @property
+    def is_sequence(self) -> bool:
+        """Whether the rest of it can be planned as steps one after the other."""
+        return self.is_linear and not self.has_flow
 
     @property
     def is_open(self) -> bool:

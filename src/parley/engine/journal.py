@@ -153,13 +153,18 @@ class Journal:
     async def heed_plans(self, transport: Transport) -> Subscription:
         """Offer no more what an earlier process left of a robot once its plan is given up."""
         left = {was.actor for was in self.interrupted}
+        held: set[str] = set()
 
         async def hear(message: String) -> None:
             try:
                 told = decode_plan(message.data)
             except InvalidMessageError:
                 return  # whoever shows plans says so
-            if isinstance(told, PlanUpdate) and told.target in left and told.state == "idle":
+            if not isinstance(told, PlanUpdate) or told.target not in left:
+                return
+            if told.state != "idle":
+                held.add(told.target)
+            elif told.target in held:  # before, whoever plans has not heard yet what was left
                 left.discard(told.target)
                 try:
                     await self._database.run(functools.partial(settle, actor=told.target, first=self._first))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from datetime import datetime
-from typing import Any
+from typing import Any, Final
 
 from parley.clock import Clock
 from parley.errors import ActionFailure, FailureCode
@@ -19,14 +19,19 @@ from parley.gate.judge import (
     judge_step,
 )
 from parley.gate.places import place_in
+from parley.gate.risk import risk_of
 from parley.gate.shapes import Shape
 from parley.messages.chat import ActionCall
 from parley.messages.principal import Principal
-from parley.messages.rules import ZONE_KINDS, Point, Rule, RuleSet
+from parley.messages.robot import RulesInForce
+from parley.messages.rules import ZONE_KINDS, Point, RiskClass, Rule, RuleSet
 from parley.messages.status import ActionInfo
+from parley.sentences import sentence
 from parley.world.geometry import Pose2D
 
 __all__ = ["RuleBook"]
+
+NOT_READ: Final = sentence("I have not heard yet what the rules are, so I do not begin.")
 
 
 class RuleBook:
@@ -42,12 +47,21 @@ class RuleBook:
 
     def __init__(self, clock: Clock, rules: RuleSet | None = None) -> None:
         self._clock = clock
+        self.in_force = True
+        """Whether it is known what the rules are; until then nothing that moves is let begin."""
         self._facts: dict[str, RobotFacts] = {}
         self._accounts: dict[str, Principal | None] = {}
         self._watchers: list[Callable[[], None]] = []
         self.revision = 0
         """Counts the changes."""
         self.replace(rules or RuleSet())
+
+    @classmethod
+    def unread(cls, clock: Clock) -> RuleBook:
+        """A book whose rules are still to be heard."""
+        book = cls(clock)
+        book.in_force = False
+        return book
 
     @property
     def rules(self) -> RuleSet:
@@ -63,12 +77,16 @@ class RuleBook:
         self._zone = zone_of(rules.timezone)
         self._rules = rules
         self._shapes = {rule.id: Shape(rule.corners) for rule in rules.rules if rule.kind in ZONE_KINDS}
+        self.in_force = True
         self.revision += 1
+        self._changed()
+
+    def _changed(self) -> None:
         for told in self._watchers:
             told()
 
     def on_change(self, told: Callable[[], None]) -> None:
-        """Have `told` called after each change."""
+        """Have `told` called after each change of rules or accounts."""
         self._watchers.append(told)
 
     def know(self, robot: str, facts: RobotFacts) -> None:
@@ -82,6 +100,22 @@ class RuleBook:
     def act_for(self, robot: str, by: Principal | None) -> None:
         """On whose account a robot acts from now on: engines and drives ask who is exempt."""
         self._accounts[robot] = by
+        self._changed()
+
+    @property
+    def told(self) -> RulesInForce:
+        """What engines in other processes need to know of it."""
+        return RulesInForce(rules=self._rules, accounts=dict(self._accounts))
+
+    def hear(self, told: RulesInForce) -> None:
+        """Take over what another book holds; robots that it has no account of go on as they did.
+
+        Raises:
+            ConfigError: As `replace`.
+        """
+        self._accounts |= told.accounts
+        if not self.in_force or told.rules != self._rules:
+            self.replace(told.rules)
 
     def account(self, robot: str) -> Principal | None:
         """On whose account a robot acts."""
@@ -150,6 +184,8 @@ class RuleBook:
         Raises:
             ActionFailure: `forbidden`, with the rule in its details.
         """
+        if not self.in_force and risk_of(action) is not RiskClass.LOOKS:
+            raise ActionFailure(FailureCode.FORBIDDEN, NOT_READ)
         for finding in self.judge_action(robot, action, inputs).forbidden:
             raise ActionFailure(FailureCode.FORBIDDEN, finding.sentence, {"rule": finding.rule})
 

@@ -106,6 +106,8 @@ class Fence:
         Returns:
             The same, slower, or turning on the spot: a round robot always may.
         """
+        if not self._book.in_force:
+            return Velocity()
         rules = [
             rule for rule in self._book.active(self._robot) if rule.kind in ("keep_out", "slow", "speed")
         ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import uuid
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -197,10 +197,12 @@ class RuleTalk:
     Args:
         book: The rules in force.
         keeper: Where they are kept.
-        areas: Rooms and other named parts of the map.
+        areas: Gives rooms and other named parts of the map.
     """
 
-    def __init__(self, book: RuleBook, keeper: RuleKeeper, areas: Sequence[MapArea] = ()) -> None:
+    def __init__(
+        self, book: RuleBook, keeper: RuleKeeper, areas: Callable[[], Sequence[MapArea]] = tuple
+    ) -> None:
         self._book, self._keeper, self._areas = book, keeper, areas
         self._confirmations = RuleConfirmations()
         self._refused: Latest[str, tuple[str, ...]] = Latest()
@@ -288,7 +290,7 @@ class RuleTalk:
     def _told(self, text: str, to: Listener) -> DraftRule | NotUnderstood | None:
         return told_rule(
             text, places=to.places, catalogue=to.catalogue, robots=to.robots, robot=to.robot, busy=to.busy,
-            zones=self._book.rules.rules, areas=self._areas,
+            zones=self._book.rules.rules, areas=self._areas(),
         )  # fmt: skip
 
     def _proposed(self, told: DraftRule, to: Listener) -> RuleReply:

@@ -100,6 +100,8 @@ INCIDENT = _string("/parley/incident")
 MAP_VIEW = _string("/parley/map_view", depth=10)
 AUDIT = _string("/parley/audit", depth=10_000)
 ATTENDANCE = _string("/parley/attendance", latched=True)
+RULES_IN_FORCE = _string("/parley/rules_in_force", latched=True, depth=1)
+NOTICE = _string("/parley/notice")
 
 GET_MEMORY = Service("get_memory", ros.ChatRequest, ros.ChatResponse, "nl_interface_msgs/srv/Chat")
 GET_INCIDENTS = Service(
@@ -117,6 +119,7 @@ ALL_TOPICS: tuple[Topic[Any], ...] = (
     DISPLAY_FEED, GRAPH_START, GRAPH_MODIFY, GRAPH_PAUSE, GRAPH_PAUSE_TEMOTO, GRAPH_RESUME, GRAPH_STOP,
     GRAPH_FEEDBACK, ACTOR_STATUS, GRAPH_EVENTS, PLAN, PLAN_DECISION, STEP, STOP, STOP_REPORT, REJECTION, SYNC,
     MEMORY_EVENT, REPLY_DRAFT, INCIDENT, MAP_VIEW, AUDIT, RULING, ATTENDANCE,
+    RULES_IN_FORCE, NOTICE,
 )  # fmt: skip
 ALL_SERVICES = (GET_MEMORY, GRAPH_GET, GET_INCIDENTS, GET_MAP, GET_AUDIT, RULES)
 
@@ -134,6 +137,17 @@ def actor_graph_get(actor: str) -> Service[ros.UmrfGraphGetRequest, ros.UmrfGrap
     return Service(
         f"/{_ros_name(actor)}/umrf_graph_get", GRAPH_GET.request, GRAPH_GET.response, GRAPH_GET.ros_type
     )
+
+
+def actor_site(actor: str) -> Topic[ros.String]:
+    """Where one robot is and what it is like."""
+    return _string(f"/{_ros_name(actor)}/parley_site", latched=True, depth=1)
+
+
+def actor_unfinished(actor: str) -> Service[ros.ChatRequest, ros.ChatResponse]:
+    """What one engine has not brought to an end."""
+    name = f"/{_ros_name(actor)}/parley_unfinished"
+    return Service(name, GET_MEMORY.request, GET_MEMORY.response, GET_MEMORY.ros_type)
 
 
 def _ros_name(text: str) -> str:

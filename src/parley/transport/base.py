@@ -7,7 +7,7 @@ never raises because of a subscriber. A handler that raises is logged and goes o
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import TracebackType
 from typing import Any, Generic, Protocol, Self, TypeVar
 
@@ -50,6 +50,8 @@ class Endpoint:
     ros_type: str
     role: str
     """`publisher`, `subscription`, `server`."""
+    elsewhere: bool = field(default=False, compare=False)
+    """Whether it is in another process."""
 
 
 class Publisher(Protocol[M_contra]):

@@ -30,7 +30,7 @@ from parley.umrf.other_runs import RemoteRun, SubgraphRun
 from parley.umrf.remote import Peers, RemoteEnd, RemoteSpec
 from parley.umrf.reports import failure_lines, stop_timed_out_text
 from parley.umrf.rounds import Rounds
-from parley.umrf.saved import Later, SavedRun, load, save_frame, save_node
+from parley.umrf.saved import Later, SavedRun, kept_outputs, load, save_frame, save_node
 from parley.umrf.slices import in_slices
 from parley.umrf.transition import Announcer, Observer
 
@@ -207,6 +207,10 @@ class GraphRun:
         changed = (item for item in self._flow.nodes.values() if everything or item.unsaved)
         nodes = [(item.name, save_node(item)) for item in changed]
         return save_frame(self.state, self.result, self._flow, self._later, self._rounds, self._runs), nodes
+
+    def kept_outputs(self) -> dict[str, dict[str, Any]]:
+        """What its nodes gave so far, as far as JSON can hold it: full name -> flat name -> value."""
+        return {item.name: given for item in self._flow.nodes.values() if (given := kept_outputs(item))}
 
     def restore(self, saved: SavedRun) -> None:
         """Instead of `start`: stand where another process was interrupted, until `resume` (or `stop`).

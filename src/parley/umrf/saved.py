@@ -19,7 +19,7 @@ from parley.umrf.model import ENDED, Graph, GraphState, LogMessage, NodeState, R
 from parley.umrf.node_run import NodeRun
 from parley.umrf.rounds import Rounds
 
-__all__ = ["Later", "SavedRun", "load", "save_frame", "save_node"]
+__all__ = ["Later", "SavedRun", "kept_outputs", "load", "save_frame", "save_node"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,6 +121,13 @@ def save_node(item: FlowNode) -> dict[str, Any]:
     if item.log:
         saved["log"] = [(line.timestamp, line.message) for line in list(item.log)]
     return saved
+
+
+def kept_outputs(item: FlowNode) -> dict[str, Any]:
+    """What a node gave, as far as JSON can hold it."""
+    saved: dict[str, Any] = {}
+    _put(saved, "outputs", item.outputs, item.node.output_parameters)
+    return dict(saved.get("outputs", {}))
 
 
 def _put(

@@ -76,7 +76,8 @@ class ChatInterface(Node):
         known_robots: Robots that send no heartbeat of ours.
         patience_s: Wall time after which the operator is told that an answer takes long.
         rules: Hears what people say about rules before any language engine does.
-        rooms: Parts of the map with a name, as goals.
+        rooms: Parts of a robot's map with a name, as goals.
+        soon: Waits a moment for what a robot has to tell of its map when it comes.
     """
 
     name: ClassVar[str] = "chat_interface"
@@ -93,10 +94,11 @@ class ChatInterface(Node):
         known_robots: Sequence[str] = (),
         patience_s: float = PATIENCE_S,
         rules: RuleTalk | None = None,
-        rooms: Sequence[MapObject] = (),
+        rooms: Callable[[str], Sequence[MapObject]] = lambda _: (),
+        soon: Callable[[str], Awaitable[None]] | None = None,
     ) -> None:
         super().__init__(transport)
-        self._rules = rules
+        self._rules, self._soon = rules, soon
         self._clock = clock
         self._thinking = Thinking(language_timeout_s, patience_s)
         self._presence = Presence(clock, tuple(known_robots), linked=linked_to(transport))
@@ -271,6 +273,8 @@ class ChatInterface(Node):
         halts = dict(self._halts)
 
         async def work() -> None:
+            if self._soon is not None:
+                await self._soon(target)
             if await self._about_rules(target, said, ours):
                 return
             mine = ours if self._recollections.asked(ours) else ""

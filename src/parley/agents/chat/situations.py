@@ -46,7 +46,7 @@ class Situations:
         objects: The things a robot's map knows, by the robot's name.
         history_exchanges: How many exchanges are remembered as context.
         clock: Its wall time is written down with what was done.
-        rooms: Parts of the map with a name, as goals.
+        rooms: Parts of a robot's map with a name, as goals.
     """
 
     def __init__(
@@ -56,11 +56,11 @@ class Situations:
         objects: Callable[[str], Sequence[MapObject]],
         history_exchanges: int,
         clock: Clock,
-        rooms: Sequence[MapObject] = (),
+        rooms: Callable[[str], Sequence[MapObject]] = lambda _: (),
     ) -> None:
         self._transport, self._presence, self.objects = transport, presence, objects
         self._history_exchanges, self._clock = history_exchanges, clock
-        self._rooms = tuple(rooms)
+        self._rooms = rooms
         self.plans: dict[str, PlanUpdate] = {}
         self.questions = OpenQuestions()
         self._failures: Latest[str, ErrorHandlingMessage] = Latest()
@@ -186,7 +186,7 @@ class Situations:
             steps=pending_ids(plan) if plan else (),
             status=_STATUS.get(self.state(target), "idle"),
             objects=objects,
-            rooms=self._rooms,
+            rooms=tuple(self._rooms(target)),
             robot_pose=_pose(status),
             robot=target,
             robots=self._presence.names(),

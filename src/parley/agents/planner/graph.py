@@ -15,12 +15,10 @@ from dataclasses import dataclass, field
 from typing import Any, Final
 
 from parley.agents.planner.steps import Step, When, stages, verdict
+from parley.engine.interrupted import FLOW_KEY
 from parley.umrf.model import ChildRelation, Graph, Node, NodeRef, ParentRelation, Response, Result
 
-__all__ = ["FLOW_KEY", "Link", "build_graph", "links"]
-
-FLOW_KEY: Final = "parley_flow"
-"""Under `gui_attributes`, which engines carry along unread."""
+__all__ = ["Link", "build_graph", "links"]
 
 _ENDS: Final = (Result.ON_TRUE, Result.ON_FALSE)
 _IGNORE: Final[Mapping[Result, Response]] = dict.fromkeys(

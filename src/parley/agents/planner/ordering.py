@@ -103,7 +103,8 @@ class Ordering:
     ) -> None:
         """Do what an order says once its steps are weighed; orders to one robot keep their order."""
         plan = self._plans.plan(target)
-        if any(EFFECT_OF[item.command] is Effect.PAUSE for item in orders.of_plans(order)):
+        halts = any(EFFECT_OF[item.command] is Effect.PAUSE for item in orders.of_plans(order))
+        if halts and not self._plans.is_asked(target):
             do(plan, order, None)
             return
 
@@ -122,7 +123,7 @@ class Ordering:
         do: Callable[[Judgement | None], None],
         halted: Callable[[], None],
     ) -> None:
-        """Go on once steps are weighed, in turn with everything else that is told to the robot.
+        """Go on once steps are weighed and it is known what the robot does; orders to one keep their order.
 
         Args:
             target: The robot.
@@ -132,12 +133,14 @@ class Ordering:
             halted: Called instead if somebody told the robot to stand still meanwhile.
         """
         weighs = self._judge is not None and bool(calls)
+        waits = weighs or self._plans.is_asked(target)
         halts = self._weighing.get(target, 0)
-        if not weighs and target not in self._mailboxes.busy:
+        if not waits and target not in self._mailboxes.busy:
             do(None)
             return
 
         async def work() -> None:
+            await self._plans.settled(target)
             judgement = await self._weigh(target, calls, by) if weighs else None
             if halts == self._weighing.get(target, 0):
                 do(judgement)

@@ -98,16 +98,18 @@ class TargetPlan(PlanState):
         """Take over what an earlier process left; it waits until the operator says to go on."""
         self.steps, self.pause_wanted = [*steps], bool(steps)
 
-    def adopt(self, graph_name: str, steps: Sequence[Step], *, dry: bool) -> None:
+    def adopt(self, graph_name: str, steps: Sequence[Step], *, dry: bool, going: bool = False) -> None:
         """Take over a graph that an engine holds since an earlier process; as `restore`.
 
         Args:
             graph_name: The graph.
             steps: What it consists of, with the ids of its nodes.
             dry: Whether it ran dry; otherwise it stands still.
+            going: Whether it goes on instead.
         """
         self.restore(steps)
-        self.graph_name, self.run = graph_name, "halted" if dry else "paused"
+        self.pause_wanted = self.pause_wanted and not going
+        self.graph_name, self.run = graph_name, "running" if going else "halted" if dry else "paused"
         self.next_id = 1 + max((step.instance_id for step in steps), default=-1)
 
     def fail_again(self, action: str) -> Step | None:

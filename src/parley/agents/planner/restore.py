@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
-from parley.agents.planner.graph import FLOW_KEY
 from parley.agents.planner.steps import Step, When, handed_over, previous, with_givers
-from parley.engine.journal import Interrupted
+from parley.engine.interrupted import Interrupted, flow_of
 from parley.messages.chat import ActionCall
 from parley.sentences import sentence
-from parley.umrf.model import Node, NodeState
+from parley.umrf.model import GraphState, Node, NodeState
 
-__all__ = ["adopted_steps", "interruption_text", "restored_steps"]
+__all__ = ["adopted_steps", "interruption_text", "met_text", "restored_steps"]
 
 
 def restored_steps(was: Interrupted) -> list[Step]:
@@ -22,7 +20,7 @@ def restored_steps(was: Interrupted) -> list[Step]:
     written down, the giver is done again too. A graph that is no simple sequence is none of steps: its
     engine goes on with it as it is (`ActionEngine.restore`).
     """
-    if not was.is_linear or _has_flow(was):
+    if not was.is_sequence:
         return []
     done = [
         Step(_call(node), state="finished", outputs=dict(was.outputs.get(node.full_name, {})))
@@ -36,15 +34,15 @@ def restored_steps(was: Interrupted) -> list[Step]:
 
 
 def adopted_steps(was: Interrupted) -> list[Step]:
-    """The plan behind a graph with conditions or concurrency that its engine holds, as far as it can be told.
+    """The plan behind a graph that its engine holds, as far as it can be told.
 
-    None if the graph was not made by a planner, or is a simple sequence.
+    None if it has branches and was not made by a planner.
     """
-    if not _has_flow(was):
+    if not (was.is_linear or was.has_flow):
         return []
     steps: dict[str, Step] = {}
     for node in was.graph.nodes:
-        flow = _flow(node)
+        flow = flow_of(node)
         step = Step(_call(node), node.instance_id, outputs=dict(was.outputs.get(node.full_name, {})))
         step.state = "finished" if node.state is NodeState.FINISHED else "queued"
         if node.state is NodeState.ERROR:
@@ -75,16 +73,6 @@ def _leave_out_passed(steps: Sequence[Step], states: Sequence[NodeState]) -> Non
             step.state = "skipped"
 
 
-def _has_flow(was: Interrupted) -> bool:
-    return any(_flow(node) for node in was.graph.nodes)
-
-
-def _flow(node: Node) -> dict[str, Any]:
-    attributes = node.gui_attributes
-    flow = attributes.get(FLOW_KEY) if isinstance(attributes, dict) else None
-    return flow if isinstance(flow, dict) else {}
-
-
 def interruption_text(was: Interrupted, goes_on: Sequence[Step] | bool) -> str:
     """What the operator is told about it.
 
@@ -109,6 +97,22 @@ def interruption_text(was: Interrupted, goes_on: Sequence[Step] | bool) -> str:
     return sentence(
         "I was interrupted while I was at “{step}”. Say “carry on” to go on with the rest, or “cancel "
         "everything”.",
+        step=words,
+    )
+
+
+def met_text(was: Interrupted) -> str:
+    """What the operator is told of a graph that was met, as whoever planned it had ended."""
+    failed = any(node.state is NodeState.ERROR for node in was.graph.nodes)
+    current = next(iter(was.going_on or was.remaining or reversed(was.graph.nodes)))
+    words = current.description or current.name
+    if was.graph.state is GraphState.RUNNING and not failed:
+        return sentence(
+            "I could not be reached for a while and went on meanwhile. I am at “{step}”.", step=words
+        )
+    return sentence(
+        "I could not be reached for a while. I stand still at “{step}”. Say “carry on” to go on with the "
+        "rest, or “cancel everything”.",
         step=words,
     )
 

@@ -6,22 +6,26 @@ The planner node decides what becomes of these; what there is to tell of them is
 from __future__ import annotations
 
 import uuid
-from collections.abc import Callable, Sequence
-from typing import Literal
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
+from typing import Final, Literal
 
 from parley.agents.base import Node
 from parley.agents.planner import orders as orders
 from parley.agents.planner.approval import PlanBoard
 from parley.agents.planner.check import check_calls, complete_calls
-from parley.agents.planner.effects import Effect
+from parley.agents.planner.effects import Effect, PauseGraph
 from parley.agents.planner.left_graphs import LeftGraphs
 from parley.agents.planner.offers import Offers
 from parley.agents.planner.plan import TargetPlan
+from parley.agents.planner.restore import adopted_steps, interruption_text, met_text, restored_steps
 from parley.agents.planner.sending import Patience, PlanSender
 from parley.agents.planner.steps import Step
+from parley.agents.planner.welcome import Welcome
 from parley.agents.presence import Presence, linked_to
 from parley.agents.questions import OpenQuestions
 from parley.clock import Clock
+from parley.engine.interrupted import Interrupted
 from parley.errors import Problem
 from parley.gate.judge import Judgement
 from parley.gate.table import Effect as GateEffect
@@ -29,11 +33,15 @@ from parley.messages import topics
 from parley.messages.audit import AuditEvent
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.principal import Principal
+from parley.messages.robot import UnfinishedRun
 from parley.messages.status import ActionInfo, ActorStatus, PlanRuling
 from parley.sentences import sentence, together
+from parley.umrf.model import GraphState, NodeState
 from parley.world.object_map import MapObject
 
 __all__ = ["RobotPlans"]
+
+_KNOWN_GRAPHS: Final = 1000
 
 
 class RobotPlans:
@@ -47,6 +55,7 @@ class RobotPlans:
         patience: How long an engine is waited for.
         tell: Gets a robot and what it has to say by itself; None says it at once, to whoever listens.
         objects: The things a robot's map knows, by the robot's name.
+        met: Gets a robot whose engine said what is unfinished, and whether there was anything to say of it.
     """
 
     def __init__(
@@ -59,6 +68,7 @@ class RobotPlans:
         patience: Patience,
         tell: Callable[[str, str], None] | None,
         objects: Callable[[str], Sequence[MapObject]],
+        met: Callable[[str, bool], None],
     ) -> None:
         self._node = node
         self._sender = PlanSender(node, patience, self._speaks_parley, self.send)
@@ -76,13 +86,23 @@ class RobotPlans:
         """Who told each robot to stand still, until it goes on."""
         self.questions, self.left = OpenQuestions(), LeftGraphs()
         self._tell = tell or (lambda robot, text: self.say(robot, text, "info"))
+        self._welcome = Welcome(
+            node, self.presence.on_status, self._take_up, self._tell, self._on_arrival, met
+        )
+        self.met, self.settled, self.is_asked = (
+            self._welcome.met,
+            self._welcome.settled,
+            self._welcome.is_asked,
+        )
+        self._graphs: deque[str] = deque(maxlen=_KNOWN_GRAPHS)
+        """The graphs that were planned or taken up here."""
         self._offers_again = False
         self._listeners = 0
         """How many listen to the plans."""
 
     async def open(self) -> None:
         """Hear which robots are there; closed with the node."""
-        await self._node.subscribe(topics.ACTOR_STATUS, ActorStatus, self.presence.on_status)
+        await self._node.subscribe(topics.ACTOR_STATUS, ActorStatus, self._welcome.on_status)
         self._node.opened.callback(self._node.transport.on_endpoints_changed(self._on_ends))
         self._node.spawn(self.presence.watch(), name="presence")
 
@@ -103,6 +123,34 @@ class RobotPlans:
     def hold_graph(self, target: str, name: str) -> None:
         """The engine of `target` holds a graph that an earlier process left; the same words go for it."""
         self.left.hold(self.plan(target).target, name)
+
+    def _take_up(self, robot: str, run: UnfinishedRun, was: Interrupted) -> str:
+        """Take up what the engine of a robot has not brought to an end; what is to be said of it."""
+        plan, name, held = self.plan(robot), was.graph.name, run.goes_on == "engine"
+        if name in self._graphs:
+            return interruption_text(was, True) if run.left and held and plan.pending else ""
+        self._graphs.append(name)
+        steps: Sequence[Step] = ()
+        if not plan.pending and (was.has_flow or not (run.left and held)):
+            steps = adopted_steps(was) if held else restored_steps(was) if run.goes_on == "anew" else ()
+        if steps and held:
+            self._adopt_run(plan, run, was, steps)
+        elif steps:
+            self.restore(robot, steps)
+        elif held:
+            self.hold_graph(robot, name)
+        return interruption_text(was, held or steps) if run.left else met_text(was)
+
+    def _adopt_run(
+        self, plan: TargetPlan, run: UnfinishedRun, was: Interrupted, steps: Sequence[Step]
+    ) -> None:
+        state, name = was.graph.state, was.graph.name
+        failed = any(node.state is NodeState.ERROR for node in was.graph.nodes)
+        meets = not run.left and not failed
+        going = meets and state is GraphState.RUNNING
+        plan.adopt(name, steps, dry=state is GraphState.HALTED, going=going)
+        holds = [PauseGraph(name)] if state is GraphState.RUNNING and failed and not run.left else []
+        self.send(plan, plan.reports.on_graph(was.graph) if meets else holds)
 
     def offer_again(self) -> None:
         """Propose what an earlier process left waiting for a yes, now and to robots that come later.
@@ -150,19 +198,21 @@ class RobotPlans:
         return status.catalogue if status is not None else ()
 
     def _on_presence(self, robot: str, joined: bool) -> None:
-        if joined and self.approvals.policy(robot) != "run_at_once":
-            self.send(self.plan(robot), [])
-        if joined:
-            self._offer_left(robot)
         plan = self.by_robot.get(robot)
-        if plan is None:
-            return
-        if not joined:
+        if not joined and plan is not None and plan.pending:
             text = sentence("I have lost contact with {robot}. Its plan is kept.", robot=robot)
-            if plan.pending:
-                self.say(robot, text, "error")
-        elif (status := self.presence.get(robot)) is not None:
-            self.send(plan, plan.reports.on_return(status.graphs))
+            self.say(robot, text, "error")
+        elif joined and not self.is_asked(robot):
+            self._on_arrival(robot, None)
+
+    def _on_arrival(self, robot: str, graphs: Mapping[str, str] | None) -> None:
+        """A robot is there, or its engine was started anew; with these graphs, if it has told."""
+        if self.approvals.policy(robot) != "run_at_once":
+            self.send(self.plan(robot), [])
+        self._offer_left(robot)
+        plan, status = self.by_robot.get(robot), self.presence.get(robot)
+        if plan is not None and status is not None:
+            self.send(plan, plan.reports.on_return(status.graphs if graphs is None else graphs))
 
     def _speaks_parley(self, target: str) -> bool:
         return self.presence.get(target) is not None
@@ -187,11 +237,16 @@ class RobotPlans:
         if plan is None:
             plan = self.by_robot[target] = TargetPlan(
                 target,
-                new_graph_name=lambda: f"{target}_{uuid.uuid4().hex[:12]}",
+                new_graph_name=lambda: self._new_name(target),
                 waits_for_operator=lambda action: self._has_effect(target, action, "asks_operator"),
                 can_end_step=lambda: self._speaks_parley(target),
             )
         return plan
+
+    def _new_name(self, target: str) -> str:
+        name = f"{target}_{uuid.uuid4().hex[:12]}"
+        self._graphs.append(name)
+        return name
 
     def _has_effect(self, target: str, action: str, effect: str) -> bool:
         status = self.presence.get(target)

@@ -49,6 +49,7 @@ class UmrfPlanner(Node):
         objects: The things a robot's map knows, by the robot's name.
         judge: What the rules say about steps; None: there are none.
         begin_for: Told on whose account a robot acts from now on.
+        met: Gets a robot whose engine said what is unfinished, and whether there was anything to say of it.
     """
 
     name: ClassVar[str] = "umrf_planner"
@@ -67,6 +68,7 @@ class UmrfPlanner(Node):
         objects: Callable[[str], Sequence[MapObject]] = lambda _: (),
         judge: Judge | None = None,
         begin_for: BeginFor = lambda *_: None,
+        met: Callable[[str, bool], None] = lambda *_: None,
     ) -> None:
         super().__init__(transport)
         self._log = ProposalLog(proposals)
@@ -78,13 +80,14 @@ class UmrfPlanner(Node):
             patience=patience or Patience(),
             tell=tell,
             objects=objects,
+            met=met,
         )
         waiting, commands = Proposals(self, self._plans), Commands(self, self._plans)
         self._commands = commands
         self._orders = Ordering(self, self._plans, waiting, commands, judge, begin_for)
         self._decisions = Decisions(self, self._plans, waiting, commands, self._orders, begin_for)
         self.restore, self.adopt = self._plans.restore, self._plans.adopt
-        self.hold_graph, self.offer_again = self._plans.hold_graph, self._plans.offer_again
+        self.met, self.offer_again = self._plans.met, self._plans.offer_again
 
     async def open(self) -> None:
         """See `Node.open`."""

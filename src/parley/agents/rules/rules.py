@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import ClassVar
 
 from parley.agents.base import Node
@@ -30,20 +29,11 @@ from parley.messages.wire import decode, encode
 from parley.sentences import SpokenLanguage, in_language
 from parley.transport.base import Transport
 from parley.world.geometry import Pose2D
-from parley.world.object_map import MapObject
-from parley.world.occupancy import OccupancyMap
+from parley.world.telling import Surroundings
 
-__all__ = ["MapOf", "RuleNode"]
+__all__ = ["RuleNode"]
 
 _DRIVE = ActionInfo(name="drive", effects=("moves",))
-
-
-@dataclass(frozen=True, slots=True)
-class MapOf:
-    """What one robot drives by."""
-
-    occupancy: OccupancyMap
-    objects: Sequence[MapObject]
 
 
 class RuleNode(Node):
@@ -68,7 +58,7 @@ class RuleNode(Node):
         clock: Clock,
         *,
         ground: Ground,
-        maps: Mapping[str, MapOf],
+        maps: Mapping[str, Surroundings],
     ) -> None:
         super().__init__(transport)
         self._keeper, self._book, self._clock = keeper, book, clock
@@ -79,6 +69,8 @@ class RuleNode(Node):
         """See `Node.open`."""
         await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._presence.on_status)
         self._keeper.on_change(self._on_change)
+        self._book.on_change(self._tell_rules)
+        self._tell_rules()
         server = await self.transport.serve(topics.RULES, self._on_request)
         self.opened.push_async_callback(server.close)
 
@@ -127,6 +119,9 @@ class RuleNode(Node):
         detail = {"rule": said, "dropped": dropped}
         self.publish(topics.AUDIT, AuditEvent(effect=Effect.RULE, by=by, words=rule.words, detail=detail))
 
+    def _tell_rules(self) -> None:
+        self.publish(topics.RULES_IN_FORCE, self._book.told)
+
     # -- trying -------------------------------------------------------------------------------------------
 
     async def _try(self, request: RuleRequest) -> RuleVerdict:
@@ -139,7 +134,7 @@ class RuleNode(Node):
         catalogue = status.catalogue if status is not None else ()
         radius_m = self._book.facts(request.robot).radius_m
         resolver = Resolver(
-            self._ground, found.objects, found.occupancy, radius_m=radius_m, clock=self._clock
+            self._ground, found.objects.places, found.occupancy, radius_m=radius_m, clock=self._clock
         )
         steps = list(await resolver.resolve(request.steps, catalogue, pose))
         if request.goal is not None:

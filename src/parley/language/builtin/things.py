@@ -88,9 +88,9 @@ def link(words: Sequence[str], head: int, objects: Sequence[MapObject], lexicon:
         best = _best(whole if of_whole else name[:part], objects)
         if of_whole and len(best) == 1:
             return Mention("part", " ".join((*name, *rest)), tuple(best))
-        which = name[part + 1] in lexicon.classes["determiners"]  # "the lid of the jar" is no jar
-        which = which or name[part - 1] in lexicon.classes["containers"]
-        if best and not of_whole and not which and _best(whole, objects) not in ([], best):
+        held = name[part + 1] in lexicon.classes["determiners"]  # "the lid of the jar" is no jar
+        held = held or name[part - 1] in lexicon.classes["containers"]
+        if best and not of_whole and not held and _best(whole, objects) not in ([], best):
             return Mention("unclear", " ".join(name), (*best, *_best(whole, objects)))
     best = best or _otherwise_called(name, objects, lexicon)
     if not best:

@@ -59,7 +59,7 @@ def endpoint_of(token: str) -> Endpoint | None:
     parts = token.split("/")
     if len(parts) != _PARTS or parts[5] not in _ROLES:
         return None
-    return Endpoint(parts[9].replace("%", "/"), _ros(parts[10]), _ROLES[parts[5]])
+    return Endpoint(parts[9].replace("%", "/"), _ros(parts[10]), _ROLES[parts[5]], elsewhere=True)
 
 
 def gid_of(token: str) -> bytes:

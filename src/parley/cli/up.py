@@ -1,0 +1,112 @@
+"""`parley up`: what a file says that runs on this machine, as processes that are looked after."""
+
+from __future__ import annotations
+
+import asyncio
+import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated, Final
+
+import typer
+
+from parley.agents.notices import Notifier
+from parley.cli.on_loop import on_loop
+from parley.cli.output import quiet_logs
+from parley.clock import Clock, WallClock
+from parley.deployment import Deployment, PartToRun
+from parley.errors import ConfigError
+from parley.network import transport_of
+from parley.sentences import sentence
+
+__all__ = ["register"]
+
+AGAIN_S: Final = 1.0
+"""Wall time before a part that ended is started again; doubles each time it ends soon."""
+LATEST_S: Final = 30.0
+ENDS_WITHIN_S: Final = 10.0
+"""Wall time that a part has to close in order."""
+_WRONG: Final = 2
+"""Exit code of a part whose settings are wrong: starting it again would not help."""
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command("up")(up)
+
+
+def up(
+    file: Annotated[Path, typer.Argument(help="Which part runs on which machine.")],
+    machine: Annotated[str, typer.Option(help="Which of its machines this is; default: by its name.")] = "",
+    check: Annotated[bool, typer.Option("--check", help="Say what would run here, and leave.")] = False,
+    verbose: Annotated[bool, typer.Option("--verbose", help="Show the log.")] = False,
+) -> None:
+    """Run what belongs on this machine, and start again what ends."""
+    quiet_logs(verbose)
+    deployment = Deployment.load(file)
+    here = deployment.machine(machine)
+    parts = deployment.parts(here)
+    if not parts:
+        raise ConfigError(f"{file.name}: nothing runs on {here}")
+    if check:
+        for part in parts:
+            typer.echo(f"{part.name}: parley {' '.join(part.arguments)}")
+        return
+    on_loop(_run(deployment, here, parts, verbose))
+
+
+async def _run(deployment: Deployment, machine: str, parts: Sequence[PartToRun], verbose: bool) -> None:
+    with tempfile.TemporaryDirectory(prefix="parley-") as folder:
+        settings = Path(folder) / "parley.yaml"
+        settings.write_text(deployment.settings_text(machine), encoding="utf-8")
+        config = deployment.settings_of(machine)
+        transport = transport_of(config, node="parley_up")
+        notifier = Notifier(transport)
+        notifier.speaks = config.speaks
+        shared = ["--config", str(settings), *(["--verbose"] if verbose else [])]
+        try:
+            async with transport, notifier, asyncio.TaskGroup() as group:
+                for part in parts:
+                    data = deployment.data / part.name.replace(" ", "-")
+                    words = [*part.arguments, *shared, "--data", str(data)]
+                    group.create_task(_look_after(part.name, words, notifier, WallClock()), name=part.name)
+        except* ConfigError as wrong:
+            raise wrong.exceptions[0] from None
+
+
+async def _look_after(name: str, words: Sequence[str], notifier: Notifier, clock: Clock) -> None:
+    """Keep one part running until this is cancelled.
+
+    Raises:
+        ConfigError: It cannot run, as something in the settings is wrong.
+    """
+    wait_s = AGAIN_S
+    while True:
+        began_s = clock.wall_s()
+        code = await _until_it_ends(words)
+        if code == _WRONG:
+            raise ConfigError(f"{name} cannot run, see above")
+        wait_s = AGAIN_S if clock.wall_s() - began_s > LATEST_S else min(2 * wait_s, LATEST_S)
+        typer.echo(f"parley: {name} has ended ({code}) and is started again", err=True)
+        await asyncio.sleep(wait_s)
+        text = sentence("A part of me had ended by itself ({part}), and is started again.", part=name)
+        notifier.tell(text, ())
+
+
+async def _until_it_ends(words: Sequence[str]) -> int:
+    """Run it in a session of its own, so that Ctrl-C reaches it only through us; its exit code."""
+    process = await asyncio.create_subprocess_exec(
+        sys.executable, "-m", "parley", *words, start_new_session=True
+    )
+    try:
+        return await process.wait()
+    finally:
+        if process.returncode is None:
+            process.terminate()
+            try:
+                async with asyncio.timeout(ENDS_WITHIN_S):
+                    await process.wait()
+            except TimeoutError:
+                process.kill()
+                await process.wait()

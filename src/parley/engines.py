@@ -1,0 +1,229 @@
+"""Robots with an engine each, in this process: what carries plans out, whoever makes them and wherever.
+
+Between these and `Nodes` there is nothing but topics and services.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Sequence
+from contextlib import AsyncExitStack
+from dataclasses import dataclass
+from functools import partial
+from typing import Literal, Self
+
+from parley.actions.context import ActionContext
+from parley.agents.display.camera_feed import CameraFeed
+from parley.agents.display.map_feed import MapFeed, MapViews
+from parley.agents.notices import Notifier
+from parley.config import SystemConfig
+from parley.engine.engine import ActionEngine
+from parley.engine.journal import Journal
+from parley.engine.presence import is_at_rest
+from parley.engine.services import ContextServices
+from parley.engine.unfinished import Unfinished
+from parley.engine.watchdog import LoopWatchdog
+from parley.gate.book import RuleBook
+from parley.gate.stop_line import StopLine
+from parley.language.base import Language
+from parley.messages import ros, topics
+from parley.messages.robot import RobotSite
+from parley.messages.wire import to_string
+from parley.robots.base import Robot
+from parley.robots.fleet import Fleet
+from parley.robots.run_robot import RunRobot
+from parley.transport.base import Transport
+from parley.umrf.action import ActionSpec, RunHandle
+from parley.umrf.catalogue import Catalogue
+from parley.umrf.discovery import ActionFolder, LiveActions, installed_actions
+from parley.world.found import FoundThings
+from parley.world.object_map import MapObject, ObjectMap
+from parley.world.occupancy import NO_MAP, OccupancyMap
+from parley.world.telling import floor_of, told_objects
+from parley.world.whereabouts import Footprint
+
+__all__ = ["Engines", "WorldView"]
+
+
+@dataclass(frozen=True, slots=True)
+class WorldView:
+    """What one robot knows about its surroundings."""
+
+    engines: Engines
+    occupancy: OccupancyMap
+
+    @property
+    def objects(self) -> ObjectMap:
+        """The objects people may name, with what was found."""
+        return self.engines.known
+
+    async def note(self, label: str, place: Footprint) -> MapObject | None:
+        """See `parley.actions.context.World.note`."""
+        if self.occupancy is not NO_MAP and not self.occupancy.is_free(place.x_m, place.y_m):
+            return None
+        thing = await self.engines.found.note(label, place, self.engines.objects)
+        self.engines.tell_sites()
+        return thing
+
+    async def forget(self, thing: MapObject) -> None:
+        """See `parley.actions.context.World.forget`."""
+        await self.engines.found.forget(thing)
+        self.engines.tell_sites()
+
+
+class Engines:
+    """The engines of a fleet. Use as ``async with``, while the transport and the stop line are open.
+
+    Args:
+        transport: Where plans come from and reports go.
+        config: The settings.
+        fleet: The robots.
+        objects: The object map.
+        language: Finds what words of a plan mean.
+        line: Stops the robots.
+        actions: What the robots can do, besides what is installed.
+        only: The names of those robots of the fleet that are carried out here; empty: all.
+    """
+
+    def __init__(
+        self,
+        transport: Transport,
+        config: SystemConfig,
+        fleet: Fleet,
+        *,
+        objects: ObjectMap,
+        language: Language,
+        line: StopLine,
+        actions: Sequence[ActionSpec],
+        only: Sequence[str] = (),
+    ) -> None:
+        self._transport, self._config, self._fleet = transport, config, fleet
+        self.objects, self._language, self._line = objects, language, line
+        installed = installed_actions()
+        self._actions = (*actions, *installed.specs)
+        self._problems = installed.problems
+        self.catalogue = Catalogue(self._actions)
+        self.names = tuple(name for name in fleet.names if not only or name in only)
+        """The robots."""
+        self.robots: dict[str, Robot] = {}
+        self.found = FoundThings()
+        """What robots found besides."""
+        self.journal: Journal | None = None
+        """What they do is written down in; there once it is open."""
+        self._sites: dict[str, tuple[RobotSite, topics.Topic[ros.String]]] = {}
+        self._notifier = Notifier(transport)
+        self._stack = AsyncExitStack()
+
+    async def __aenter__(self) -> Self:
+        async with AsyncExitStack() as stack:
+            await self._open(stack)
+            self._stack = stack.pop_all()
+        return self
+
+    async def __aexit__(self, *exc: object) -> None:
+        await self._stack.aclose()
+
+    @property
+    def known(self) -> ObjectMap:
+        """What people may name: the object map, with what robots found."""
+        return self.found.added_to(self.objects)
+
+    def at_rest(self, robot: str) -> bool | None:
+        """Whether a robot stands, measured now; None: it is not of these. From any thread."""
+        known = self.robots.get(robot)
+        return None if known is None else is_at_rest(known)
+
+    def tell(self, text: str, kind: Literal["info", "error"] = "info") -> None:
+        """Say something to every operator, as soon as one is there."""
+        if text:
+            self._notifier.tell(text, self.names, kind)
+
+    def tell_sites(self) -> None:
+        """Tell where the robots are and what is known to be there."""
+        objects = told_objects(self.known)
+        for site, topic in self._sites.values():
+            self._notifier.send(topic, to_string(site.model_copy(update={"objects": objects})))
+
+    async def _open(self, stack: AsyncExitStack) -> None:
+        enter, config, clock = stack.enter_async_context, self._config, self._fleet.clock
+        self._notifier.speaks = config.speaks
+        await enter(self._notifier)
+        self.found = await asyncio.to_thread(FoundThings, config.found_file)
+        file = config.journal_file or ":memory:"
+        self.journal = await enter(await Journal.open(file, clock, tell=self.tell))
+        await enter(self._fleet)
+        for problem in self._problems:
+            self._tell_unusable(problem)
+        if config.actions_dir is not None:
+            folder = ActionFolder(config.actions_dir)
+            live = LiveActions(self.catalogue, folder, self._actions, tell=self._tell_unusable)
+            await enter(live)
+        watchdog = LoopWatchdog(self._line, self.names, clock, self.tell)
+        watchdog.open()
+        stack.push_async_callback(watchdog.close)
+        for name in self.names:
+            self._describe(name)
+        self.tell_sites()
+        for name in self.names:
+            await self._open_robot(stack, name, self.journal)
+        stack.push_async_callback((await self.journal.heed_plans(self._transport)).close)
+        stack.push_async_callback(self.journal.end)
+
+    def _tell_unusable(self, problem: str) -> None:
+        self.tell(f"An action cannot be used: {problem}", "error")
+
+    def _describe(self, name: str) -> None:
+        facts, occupancy = self._fleet.facts(name), self._fleet.occupancy(name)
+        same = (
+            site.floor for site, _ in self._sites.values() if site.floor and site.floor.name == occupancy.name
+        )
+        site = RobotSite(
+            actor=name,
+            floor=next(same, None) or floor_of(occupancy),
+            radius_m=facts.radius_m,
+            max_speed_mps=facts.speed_mps,
+        )
+        self._sites[name] = (site, topics.actor_site(name))
+
+    async def _open_robot(self, stack: AsyncExitStack, name: str, journal: Journal) -> None:
+        enter, transport, clock = stack.enter_async_context, self._transport, self._fleet.clock
+        view = WorldView(self, self._fleet.occupancy(name))
+        rules = RuleBook.unread(clock)
+        rules.know(name, self._fleet.facts(name))
+        robot = self.robots[name] = self._fleet.robot(name, rules)
+        services = await enter(ContextServices(name, transport))
+        unfinished = Unfinished(name, [was for was in journal.interrupted if was.actor == name])
+        await unfinished.open(transport)
+        stack.push_async_callback(unfinished.close)
+
+        def make_context(run: RunHandle) -> ActionContext:
+            return ActionContext(
+                run=run,
+                robot=RunRobot(robot, run.motion),
+                world=view,
+                memory=services,
+                display=services,
+                operator=services,
+                language=self._language,
+            )
+
+        engine = await enter(
+            ActionEngine(
+                name,
+                transport=transport,
+                catalogue=self.catalogue,
+                clock=clock,
+                make_context=make_context,
+                admit=partial(rules.admit, name),
+                robot=robot,
+                journal=journal,
+                line=self._line,
+                rules=rules,
+            )
+        )
+        unfinished.take_up(engine)
+        if "camera" in robot.capabilities:
+            await enter(CameraFeed(transport, robot, self._config.camera_hz))
+        areas = view.objects.areas
+        await enter(MapViews(transport, robot, view.occupancy.name, clock, areas))
+        await enter(MapFeed(transport, robot, view.occupancy, view.objects.objects, clock))

@@ -1,0 +1,114 @@
+"""A system whose parts are processes of their own on one network of this machine, for tests."""
+
+from __future__ import annotations
+
+import asyncio
+import signal
+import sys
+from collections.abc import AsyncIterator
+from contextlib import AsyncExitStack, asynccontextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from parley.clock import WallClock
+from parley.config import NetworkSettings, SystemConfig
+from parley.demos.observer import Observer
+from parley.messages import topics
+from parley.messages.ros import String
+from parley.messages.status import ActorStatus
+from parley.messages.wire import decode
+from parley.network import transport_of
+from parley.transport.base import Transport
+from tests.transport.backends import free_port
+
+ROBOT = "David"
+DOMAIN = 77
+
+
+@dataclass
+class Parts:
+    """The processes, and an operator who listens."""
+
+    folder: Path
+    settings: Path
+    transport: Transport
+    operator: Observer
+    processes: dict[str, asyncio.subprocess.Process] = field(default_factory=dict)
+    statuses: dict[str, ActorStatus] = field(default_factory=dict)
+    """The newest heartbeat of each robot."""
+
+    async def start(self, part: str, *options: str) -> None:
+        """Start a part anew; `engine` or a node."""
+        words = {
+            "engine": ["engine", "--world", "nursing-home", "--data", str(self.folder / "engine")],
+            "agents": ["node", "agents", "--data", str(self.folder / "agents")],
+            "web": ["node", "web", "--no-open", "--port", "0", "--data", str(self.folder / "web")],
+        }[part]
+        self.processes[part] = await asyncio.create_subprocess_exec(
+            sys.executable, "-m", "parley", *words, "--config", str(self.settings), *options,
+            stdout=asyncio.subprocess.DEVNULL,
+        )  # fmt: skip
+
+    async def kill(self, part: str) -> None:
+        """Without a goodbye."""
+        self.processes[part].kill()
+        await self.processes[part].wait()
+
+    def freeze(self, part: str) -> None:
+        """It hangs from now on."""
+        self.processes[part].send_signal(signal.SIGSTOP)
+
+    def thaw(self, part: str) -> None:
+        """It goes on."""
+        self.processes[part].send_signal(signal.SIGCONT)
+
+    def begun(self, action: str) -> int:
+        """How often an action began."""
+        return sum(
+            event.kind == "node"
+            and event.state == "RUNNING"
+            and event.cause not in ("resume", "restore")
+            and event.node.startswith(action)
+            for event in self.operator.events
+        )
+
+    def heard(self, text: str) -> bool:
+        """Whether a robot said something of this kind."""
+        return any(text in said.message for said in self.operator.said)
+
+
+@asynccontextmanager
+async def parts(folder: Path, *names: str) -> AsyncIterator[Parts]:
+    """These parts, up and running."""
+    at = f"tcp/127.0.0.1:{free_port()}"
+    # The operator is the one whom all others connect to, as it is the one who stays.
+    settings = folder / "parley.yaml"
+    settings.write_text(f"network: {{domain: {DOMAIN}, connect: [{at}], interface: ''}}\n", encoding="utf-8")
+    network = NetworkSettings(domain=DOMAIN, listen=(at,), interface="")
+    async with AsyncExitStack() as stack:
+        transport = await stack.enter_async_context(transport_of(SystemConfig(network=network)))
+        operator = await stack.enter_async_context(Observer(transport, WallClock()))
+        made = Parts(folder, settings, transport, operator)
+
+        def on_status(message: String) -> None:
+            status = decode(ActorStatus, message.data)
+            made.statuses[status.actor] = status
+
+        await transport.subscribe(topics.ACTOR_STATUS, on_status)
+        try:
+            for name in names:
+                await made.start(name)
+            if "engine" in names:
+                await operator.until(lambda: ROBOT in operator.robots)
+            if "agents" in names:
+                await operator.until(
+                    lambda: any(
+                        end.name == "/parley/rules" and end.role == "server" for end in transport.endpoints()
+                    )
+                )
+            yield made
+        finally:
+            for process in made.processes.values():
+                if process.returncode is None:
+                    process.kill()
+                    await process.wait()

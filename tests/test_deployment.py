@@ -1,0 +1,82 @@
+"""One file says which part of a system runs where."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from parley.cli import command_line
+from parley.config import NetworkSettings, SystemConfig
+from parley.deployment import Deployment
+from parley.errors import ConfigError, FileFormatError
+from tests.test_examples import EXAMPLES, invoke
+
+FILES = sorted((EXAMPLES / "deployments").glob("*.yaml"))
+SEVERAL = """
+data: kept
+machines:
+  yard: {listen: ["tcp/0.0.0.0:7447"], interface: ""}
+  desk: {connect: ["tcp/192.168.1.5:7447"], interface: ""}
+settings: {approval: ask_first, rules_file: rules.yaml}
+robots:
+  - {name: A, machine: yard, world: boxes}
+  - {name: B, machine: yard, world: boxes}
+  - {name: Kim, machine: yard, class: "cart.py:Cart"}
+agents: {machine: desk}
+web: {machine: desk, port: 8401}
+"""
+
+
+def load(folder: Path, text: str) -> Deployment:
+    (folder / "up.yaml").write_text(text, encoding="utf-8")
+    return Deployment.load(folder / "up.yaml")
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: str(file.stem))
+def test_every_part_of_an_example_runs_somewhere_and_can_be_begun(file: Path) -> None:
+    deployment = Deployment.load(file)
+    parts = [part for machine in deployment.machines or ["here"] for part in deployment.parts(machine)]
+    assert sorted(part.name for part in parts) == ["agents", "page", "robot David"]
+    for part in parts:  # its words are those of a command that there is
+        invoke(*part.arguments[: 2 if part.arguments[0] == "node" else 1], "--help")
+    command_line("up")
+
+
+def test_each_machine_gets_its_parts_and_its_network(tmp_path: Path) -> None:
+    (tmp_path / "cart.py").write_text("", encoding="utf-8")
+    deployment = load(tmp_path, SEVERAL)
+    assert [part.arguments for part in deployment.parts("yard")] == [
+        ("engine", "--world", "boxes", "--robot", "A", "--robot", "B"),
+        ("engine", "--robot", "Kim", "--class", f"{tmp_path / 'cart.py'}:Cart"),
+    ]
+    assert [part.name for part in deployment.parts("desk")] == ["agents", "page"]
+    (tmp_path / "elsewhere").mkdir()
+    read = tmp_path / "elsewhere" / "parley.yaml"
+    read.write_text(deployment.settings_text("desk"), encoding="utf-8")
+    settings = SystemConfig.load(read)
+    assert settings.network == NetworkSettings(connect=("tcp/192.168.1.5:7447",), interface="")
+    assert (settings.approval, settings.rules_path) == ("ask_first", tmp_path / "rules.yaml")
+
+
+def test_this_machine_is_the_only_one_or_the_one_that_is_named(tmp_path: Path) -> None:
+    assert load(tmp_path, "data: kept").machine() == "here"
+    several = load(tmp_path, SEVERAL)
+    assert several.machine("desk") == "desk"
+    for wished in ("", "attic"):
+        with pytest.raises(ConfigError, match="--machine yard or desk"):
+            several.machine(wished)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (SEVERAL.replace("machine: desk, port", "machine: attic, port"), "no machine 'attic'"),
+        (SEVERAL.replace("name: B", "name: A"), "two robots have the name 'A'"),
+        (SEVERAL.replace("port: 8401", "prot: 8401"), "line 12"),
+        (SEVERAL.replace("approval", "aproval"), "line 6"),
+    ],
+)
+def test_what_cannot_be_is_refused_with_its_place(tmp_path: Path, text: str, said: str) -> None:
+    with pytest.raises(FileFormatError, match=said):
+        load(tmp_path, text)

@@ -1,0 +1,43 @@
+"""Engine and nodes in processes of their own: each is stopped, killed and started anew under way."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+
+from parley.messages import topics
+from parley.messages.principal import person
+from parley.messages.status import StopCommand
+from parley.messages.wire import to_string
+from tests.parts import ROBOT, parts
+
+
+async def test_each_half_is_killed_under_way_and_nothing_is_lost_or_done_twice(tmp_path: Path) -> None:
+    async with parts(tmp_path, "engine", "agents") as system:
+        operator, stops = system.operator, system.transport.publisher(topics.STOP)
+        operator.say("go to the fridge, then check if there is a water bottle", ROBOT)
+        await operator.until(lambda: system.begun("NavigateTo") == 1)
+
+        await system.kill("agents")
+        stops.publish(to_string(StopCommand(id="now", by=person())))
+        async with asyncio.timeout(1.0):  # what protects people is measured in wall time
+            await operator.until(
+                lambda: any(r.id == "now" and r.state == "at_rest" for r in operator.stop_reports)
+            )
+        await system.start("agents")
+        await operator.until(lambda: system.heard("could not be reached"))
+        assert operator.state(ROBOT) == "paused"
+        assert [step.state for step in operator.plans[ROBOT].steps] == ["finished", "paused", "queued"]
+
+        await system.kill("engine")
+        await system.start("engine", "--speed", "8")
+        await operator.until(lambda: system.heard("plan was interrupted"))
+        assert system.statuses[ROBOT].state == "stopped", "an engine keeps who was stopped"
+        stops.publish(to_string(StopCommand(command="reset", by=person())))
+        await operator.until(lambda: any(report.state == "reset" for report in operator.stop_reports))
+        assert system.begun("NavigateTo") == 1, "nothing begins by itself"
+
+        operator.say("carry on", ROBOT)
+        await operator.until(lambda: operator.state(ROBOT) == "idle")
+        assert [step.state for step in operator.plans[ROBOT].steps][-2:] == ["finished", "finished"]
+        assert (system.begun("NavigateTo"), system.begun("Inspect")) == (2, 1)
