@@ -279,7 +279,7 @@ def test_the_page_can_be_followed_with_the_simulated_robot(tmp_path: Path) -> No
 async def test_a_robot_that_says_nothing_of_itself_is_not_taken_for_ready(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("parley.robots.nav2.READY_S", 0.05)
+    monkeypatch.setattr("parley.robots.ros_robot.READY_S", 0.05)
     robot = Nav2Robot("A", LocalTransport)
     with pytest.raises(UnavailableError, match=r"odom \(odometry\).*tf from base_link to map.*amcl_pose"):
         await robot.open()

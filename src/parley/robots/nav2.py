@@ -7,55 +7,23 @@
 
 from __future__ import annotations
 
-import asyncio
-from collections.abc import Callable, Coroutine
-from contextlib import suppress
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Final, TypeVar
+from typing import Any, Final
 
-from parley.errors import (
-    ActionFailure,
-    FailureCode,
-    GoalRefusedError,
-    TransportError,
-    TransportTimeoutError,
-    UnavailableError,
-)
+from parley.errors import ActionFailure
 from parley.extras import needs
-from parley.messages.actions import ActionWire, CancelGoalRequest, GoalState
-from parley.messages.ros_robot import Bool, NavigateGoal, Release, Twist, Vector3, navigate_to_pose
-from parley.robots.base import CameraImage, DriveLimits, LaserScan, NavigationControl, Velocity
-from parley.robots.link import Link
+from parley.messages.actions import ActionWire, CancelGoalRequest
+from parley.messages.ros_robot import NavigateGoal, PoseStamped, Release, navigate_to_pose
+from parley.robots.base import DriveLimits
 from parley.robots.nav2_errors import failure_of
-from parley.robots.own import RobotBase
-from parley.robots.ros_senses import SILENT, RosTopics, Senses
-from parley.robots.ros_values import stamped
-from parley.sentences import sentence
-from parley.transport.base import Outcome, Transport
-from parley.world.geometry import Pose2D
+from parley.robots.ros_robot import RosRobot
+from parley.robots.ros_senses import RosTopics
+from parley.transport.base import Outcome, SentGoal, Transport
 
-if TYPE_CHECKING:
-    from parley.world.occupancy import OccupancyMap
+__all__ = ["SLOW_DRIVE", "Nav2Robot", "Nav2Setup"]
 
-__all__ = ["Nav2Robot", "Nav2Setup"]
-
-HOLD_S: Final = 0.1
-"""Between two words to the robot on whether it must stand."""
-LOST_S: Final = 1.0
-"""A base that is not heard for so long does not answer."""
-LOOP_S: Final = 0.5
-"""A program whose loop stands for so long does not watch its robot."""
-ASKING_S: Final = 2.0
-READY_S: Final = 10.0
-_ENDING_S: Final = 3.0
-_LOOK_S: Final = 0.02
-_LONG_S: Final = 3600.0
-
-PRESSED: Final = sentence("The emergency stop on me is pressed.")
-LATE: Final = sentence("I did not get there in time.")
-NO_WAY: Final = sentence("I know no way to there.")
-
-T = TypeVar("T")
+SLOW_DRIVE: Final = DriveLimits(max_speed_mps=0.4, max_turn_radps=1.5)
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,11 +35,11 @@ class Nav2Setup:
     action: str = "navigate_to_pose"
     topics: RosTopics = field(default_factory=RosTopics)
     radius_m: float = 0.25
-    limits: DriveLimits = field(default_factory=lambda: DriveLimits(max_speed_mps=0.4, max_turn_radps=1.5))
+    limits: DriveLimits = SLOW_DRIVE
 
 
-class Nav2Robot(RobotBase):
-    """See the module. Goals that nobody watches any more are called off, and it stands until that is certain.
+class Nav2Robot(RosRobot):
+    """See the module.
 
     Args:
         name: How people call it.
@@ -83,251 +51,39 @@ class Nav2Robot(RobotBase):
     def __init__(
         self, name: str, connect: str | Callable[[], Transport], setup: Nav2Setup | None = None
     ) -> None:
-        super().__init__(name)
-        self._setup = setup = setup or Nav2Setup()
-        self._names = setup.topics
-        self.radius_m, self.limits = setup.radius_m, setup.limits
-        self.capabilities = frozenset({"drive"} | setup.topics.capabilities)
-        self._connect = connect
-        self._action = navigate_to_pose(setup.topics.name(setup.action), setup.release)
-        self._senses = Senses(setup.topics, lambda: self._clock.now_s(), lambda: self._clock.wall_s())
-        self._link: Link | None = None
-        self._transport: Transport | None = None
-        self._keeping: asyncio.Task[None] | None = None
-        self._beating: asyncio.Task[None] | None = None
-        self._beat_s = 0.0
-        self._paused = False
-        self._sending: asyncio.Future[Any] | None = None
-        """A goal that the robot was asked for, until it said whether it takes it."""
-        self._unwatched = True
-        """Whether it may be driving to a goal that nobody watches."""
+        setup = setup or Nav2Setup()
+        goals = _NavigateToPose(setup.topics.name(setup.action), setup.release)
+        made = connect if callable(connect) else lambda: _bridge(connect)
+        super().__init__(name, made, goals, setup.topics, setup.radius_m, setup.limits)
 
-    # -- what robots have --------------------------------------------------------------------------------
 
-    @property
-    def own_map(self) -> OccupancyMap | None:
-        """See `RobotBase.own_map`: the one Nav2 drives by."""
-        return self._senses.occupancy
+class _NavigateToPose:
+    """See `Goals`."""
 
-    @property
-    def emergency_pressed(self) -> bool:
-        """Whether a button on the robot holds it, as far as it tells."""
-        return self._senses.emergency
+    def __init__(self, name: str, release: Release) -> None:
+        self._action = navigate_to_pose(name, release)
 
-    def pose(self) -> Pose2D:
-        """See `Robot.pose`."""
-        return self._senses.pose(LOST_S)
-
-    def velocity(self) -> Velocity:
-        """See `Robot.velocity`."""
-        return self._senses.velocity(LOST_S)
-
-    def scan(self) -> LaserScan:
-        """See `Robot.scan`."""
-        return self._senses.scan()
-
-    async def image(self) -> CameraImage:
-        """See `Robot.image`."""
-        if self._transport is None:
-            raise ActionFailure(FailureCode.HARDWARE, SILENT)
-        return await self._there(self._senses.picture(self._transport))
-
-    def send(self, velocity: Velocity) -> None:
-        """See `RobotBase.send`."""
-        twist = Twist(Vector3(velocity.linear_mps), Vector3(z=velocity.angular_radps))
-        if self._link is not None and self._transport is not None:
-            self._link.post(lambda: self._cmd_vel.publish(twist))
-
-    def halt(self) -> None:
-        """See `Robot.halt`: besides, it is told to stand, and `go` calls its goal off."""
-        super().halt()
-        self._tell()
-
-    def release(self) -> None:
-        """See `Robot.release`."""
-        super().release()
-        self._tell()
-
-    # -- coming and going --------------------------------------------------------------------------------
-
-    async def open(self) -> None:
-        """See `RobotBase.open`: connects, and waits until it is known where the robot is.
-
-        Raises:
-            UnavailableError: Nobody answers there, or nobody says where the robot is.
-        """
-        self._link = Link(f"link of {self.name}")
-        self._beating = asyncio.create_task(self._beat(), name=f"beat of {self.name}")
-        try:
-            await self._there(self._begin())
-        except BaseException:
-            self.close()
-            raise
-
-    def close(self) -> None:
-        """See `RobotBase.close`: goals are called off, and the connection ends."""
-        super().close()
-        link, self._link = self._link, None
-        if self._beating is not None:
-            self._beating.cancel()
-        if link is not None:
-            link.end(self._end(), _ENDING_S)
-
-    async def _begin(self) -> None:
-        transport = self._connect() if callable(self._connect) else _bridge(self._connect)
-        await transport.__aenter__()
-        names = self._names
-        self._cmd_vel = transport.publisher(names.topic(names.cmd_vel, Twist))
-        self._hold = transport.publisher(names.topic(names.hold, Bool))
+    async def open(self, transport: Transport) -> None:
         self._transport = transport
-        await self._senses.listen(transport)
         self._client = await transport.action_client(self._action)
-        self._opened_s = self._clock.wall_s()
-        self._keeping = asyncio.create_task(self._keep(transport), name=f"hold of {self.name}")
-        try:
-            async with asyncio.timeout(READY_S):
-                await self._senses.ready.wait()
-        except TimeoutError as error:
-            raise UnavailableError(
-                f"{self.name} does not say where it is: {self._senses.missing()}"
-            ) from error
 
-    async def _end(self) -> None:
-        transport, self._transport = self._transport, None
-        if self._keeping is not None:
-            self._keeping.cancel()
-            await asyncio.gather(self._keeping, return_exceptions=True)
-        if transport is not None and self._senses.fresh(LOST_S):
-            with suppress(TransportError):  # it stands as it hears no more of us
-                await self._call_all_off(transport)
-        if transport is not None:
-            await transport.__aexit__(None, None, None)
-
-    # -- that it stands when it must ---------------------------------------------------------------------
-
-    async def _beat(self) -> None:
-        """On the program's loop: it is alive."""
-        while True:
-            self._beat_s = self._clock.wall_s()
-            await asyncio.sleep(HOLD_S)
-
-    def _tell(self) -> None:
-        """Say at once whether it must stand; from any thread."""
-        if self._link is not None and self._transport is not None:
-            self._link.post(self._tell_hold)
-
-    def _tell_hold(self) -> None:
-        silent = self._clock.wall_s() - self._beat_s > LOOP_S
-        self._hold.publish(Bool(self._halted or self._paused or self._unwatched or silent))
-
-    async def _keep(self, transport: Transport) -> None:
-        """On the link: say again and again whether it must stand, and call off what nobody watches."""
-        while True:
-            self._tell_hold()
-            if self._unwatched:
-                asked = self._sending is None or self._sending.done()
-                with suppress(TransportError):  # it stands meanwhile, and this is tried again
-                    self._unwatched = not await self._call_all_off(transport) or not asked
-            await self._senses.rest()
-            await asyncio.sleep(HOLD_S)
-
-    async def _call_all_off(self, transport: Transport) -> bool:
-        """Whether no goal was left."""
-        try:
-            wire = ActionWire(self._action)
-            answer = await transport.call(wire.cancel, CancelGoalRequest(), timeout_s=ASKING_S)
-        except UnavailableError:  # nobody serves goals, or is not seen yet
-            waited_s = self._clock.wall_s() - self._opened_s
-            return self._sending is None and waited_s > ASKING_S and self._senses.fresh(LOST_S)
-        return not answer.goals_canceling
-
-    # -- driving -----------------------------------------------------------------------------------------
-
-    async def go(self, goal: Pose2D, control: NavigationControl, *, timeout_s: float) -> Pose2D:
-        """See `RobotBase.go`: Nav2 finds the way. Time in which the robot is held does not count."""
-        left_s, began = timeout_s, self.pose()
-        try:
-            while True:
-                while self._is_held(control):  # noqa: ASYNC110 - whoever pauses says so by a function
-                    await asyncio.sleep(_LOOK_S)
-                started_s = self._clock.now_s()
-                if await self._attempt(goal, control, left_s, began):
-                    return self.pose()
-                left_s -= self._clock.now_s() - started_s
-        finally:
-            self._paused = False
-
-    def _is_held(self, control: NavigationControl) -> bool:
-        self._paused = control.paused()
-        return self._paused or self._halted
-
-    async def _attempt(self, goal: Pose2D, control: NavigationControl, left_s: float, began: Pose2D) -> bool:
-        """Drive to the end of one goal; False: it was held meanwhile."""
-        loop, until_s = asyncio.get_running_loop(), self._clock.now_s() + left_s
-
-        def on_progress(remaining_m: float) -> None:
-            loop.call_soon_threadsafe(control.on_progress, remaining_m)
-
-        drive = asyncio.ensure_future(self._there(self._drive(goal, on_progress)))
-        try:
-            while not drive.done():
-                await asyncio.wait([drive], timeout=_LOOK_S)
-                self._check()
-                if self._is_held(control):
-                    return False
-                if self._clock.now_s() > until_s:
-                    raise ActionFailure(FailureCode.TIMED_OUT, LATE)
-            outcome = drive.result()
-        finally:
-            if not drive.done():
-                self.drive(Velocity())
-                drive.cancel()
-                self._unwatched = True
-                self._tell()
-                await asyncio.gather(drive, return_exceptions=True)
-        if outcome.state is GoalState.SUCCEEDED:
-            return True
-        code, says = getattr(outcome.result, "error_code", 0), getattr(outcome.result, "error_msg", "")
-        raise failure_of(code, says, moved=self.pose().distance_to(began) > self.radius_m)
-
-    def _check(self) -> None:
-        """Raises `ActionFailure` if it cannot drive."""
-        if self._senses.emergency:
-            raise ActionFailure(FailureCode.HARDWARE, PRESSED)
-        if not self._senses.fresh(LOST_S):
-            raise ActionFailure(FailureCode.HARDWARE, SILENT)
-
-    async def _drive(self, goal: Pose2D, on_progress: Callable[[float], None]) -> Outcome[Any]:
-        """On the link: one goal to its end."""
-
+    async def send(
+        self, target: PoseStamped, on_remaining: Callable[[float], None], *, timeout_s: float
+    ) -> SentGoal[Any]:
         def on_feedback(told: Any) -> None:
             if told.distance_remaining > 0:  # nothing before there is a way
-                on_progress(round(told.distance_remaining, 2))
+                on_remaining(round(told.distance_remaining, 2))
 
-        while self._unwatched:  # noqa: ASYNC110 - set from other threads
-            await asyncio.sleep(_LOOK_S)
-        self._tell_hold()
-        target = NavigateGoal(stamped(goal, self._names.map_frame, self._clock.unix_ms()))
-        try:
-            self._sending = asyncio.ensure_future(
-                self._client.send(target, timeout_s=ASKING_S, on_feedback=on_feedback)
-            )
-            sent = await asyncio.shield(self._sending)
-            while True:
-                with suppress(TransportTimeoutError):
-                    outcome: Outcome[Any] = await sent.outcome(timeout_s=_LONG_S)
-                    return outcome
-        except GoalRefusedError as error:
-            raise ActionFailure(FailureCode.UNREACHABLE, NO_WAY) from error
-        except TransportError as error:
-            self._unwatched = True
-            raise ActionFailure(FailureCode.HARDWARE, SILENT, {"why": str(error)}) from error
+        return await self._client.send(NavigateGoal(target), timeout_s=timeout_s, on_feedback=on_feedback)
 
-    async def _there(self, work: Coroutine[Any, Any, T]) -> T:
-        if self._link is None:
-            work.close()
-            raise ActionFailure(FailureCode.HARDWARE, SILENT)
-        return await self._link.run(work)
+    async def call_off(self, *, timeout_s: float) -> bool:
+        wire = ActionWire(self._action)
+        answer = await self._transport.call(wire.cancel, CancelGoalRequest(), timeout_s=timeout_s)
+        return not answer.goals_canceling
+
+    def failure(self, outcome: Outcome[Any], *, moved: bool) -> ActionFailure:
+        code, says = getattr(outcome.result, "error_code", 0), getattr(outcome.result, "error_msg", "")
+        return failure_of(code, says, moved=moved)
 
 
 def _bridge(address: str) -> Transport:

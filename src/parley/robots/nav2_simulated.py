@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import io
-from contextlib import AsyncExitStack
+from contextlib import AbstractAsyncContextManager, AsyncExitStack
 from typing import Any, Final, Self
 
 from parley.clock import WallClock
@@ -81,7 +81,7 @@ class SimulatedNav2:
         ):
             heard = await transport.subscribe(topic, handler)
             stack.push_async_callback(heard.close)
-        await stack.enter_async_context(ActionServer(transport, self._action, self._carry_out, self._clock))
+        await stack.enter_async_context(self._serving())
         telling = asyncio.create_task(self._tell(), name=f"nav2 of {self.robot.name}")
         stack.push_async_callback(_ended, telling)
         return self
@@ -96,6 +96,10 @@ class SimulatedNav2:
         self._pressed = pressed
         self._lock()
         self._out[self._names.emergency].publish(ros_robot.Bool(pressed))
+
+    def _serving(self) -> AbstractAsyncContextManager[Any]:
+        """What takes goals."""
+        return ActionServer(self._transport, self._action, self._carry_out, self._clock)
 
     # -- the drive ---------------------------------------------------------------------------------------
 
