@@ -55,7 +55,7 @@ INSIDE: dict[str, tuple[str, ...]] = {
     # Words and prompts know no engine; what is built in and its dialogue know each other.
     "language": ("lexicon", "prompts", "dialogue builtin", "llm"),
     # One backend each; what all share knows none.
-    "transport": ("zenoh",),
+    "transport": ("zenoh", "rosbridge"),
     "umrf": ("bt",),
     "web": ("people", "routes"),
     "api": (),
@@ -63,7 +63,7 @@ INSIDE: dict[str, tuple[str, ...]] = {
 """Rooms inside rooms by height: one knows those before it, and those that stand beside it. One that is not
 named is known by none of them."""
 
-CLOSED = {"language": {"builtin", "llm", "prompts"}, "transport": {"zenoh"}, "umrf": {"bt"}}
+CLOSED = {"language": {"builtin", "llm", "prompts"}, "transport": {"zenoh", "rosbridge"}, "umrf": {"bt"}}
 """What the single files of a room, which all others in it use, do not know."""
 
 ONLY_IN = {

@@ -76,6 +76,7 @@ def test_what_pip_is_told_exists() -> None:
 def test_the_code_of_the_pages_is_that_of_the_examples() -> None:
     for name in ("own_robot.py", "script.py"):
         assert (ROOT / "examples" / name).read_text(encoding="utf-8") in page("own-robot")
+    assert (ROOT / "examples" / "nav2_robot.py").read_text(encoding="utf-8") in page("ros-robot")
 
 
 def test_the_page_for_programs_names_what_the_door_has() -> None:

@@ -227,6 +227,8 @@ class NetworkSettings(BaseModel):
     """Whoever gives no sign of life for so long is taken for gone."""
     tls: TlsSettings | None = None
     """Encryption; None: none. With it all addresses begin with `tls/`."""
+    rosbridge: str | None = Field(default=None, pattern=r"^wss?://")
+    """The ROS behind this rosbridge instead: `ws://robot:9090`; besides it only `silence_s` counts."""
 
     @model_validator(mode="after")
     def _all_encrypted_or_none(self) -> Self:

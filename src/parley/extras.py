@@ -18,6 +18,7 @@ EXTRAS: Final = {
     "sim": "the simulator",
     "web": "the page for operators",
     "zenoh": "the network of several machines",
+    "rosbridge": "the way to robots through rosbridge",
     **dict.fromkeys(MODEL_EXTRAS, "what language models need"),
 }
 """Extra -> what it brings."""

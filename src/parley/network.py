@@ -15,13 +15,17 @@ def transport_of(config: SystemConfig, *, node: str = "parley") -> Transport:
 
     Args:
         config: The settings.
-        node: How this process is called in a network.
+        node: How this process is called in a network; a bridge calls all its clients alike.
 
     Raises:
         MissingExtraError: What the network needs is not installed.
     """
     if config.network is None:
         return LocalTransport()
+    if config.network.rosbridge is not None:
+        with needs("rosbridge"):
+            from parley.transport.rosbridge import RosbridgeTransport
+        return RosbridgeTransport(config.network.rosbridge, silence_s=config.network.silence_s)
     with needs("zenoh"):
         from parley.transport.zenoh import ZenohTransport
     return ZenohTransport(config.network, node=node)

@@ -13,6 +13,8 @@ from typing import Any, cast
 from parley.config import NetworkSettings
 from parley.transport.base import Server, Subscription, Transport
 from parley.transport.local import LocalTransport
+from parley.transport.rosbridge import RosbridgeServer, RosbridgeTransport
+from parley.transport.rosbridge.rosapi import NODES, NodesRequest
 from parley.transport.zenoh import ZenohTransport
 
 DEFINITIONS = (Path(__file__).parent / "definitions",)
@@ -77,8 +79,40 @@ async def zenoh() -> AsyncIterator[Network]:
         yield Network(cast(Transport, Settled(here, there)), cast(Transport, Settled(there, here)))
 
 
+class Bridged:
+    """A transport whose ends are open when the bridge knows of them."""
+
+    def __init__(self, transport: RosbridgeTransport) -> None:
+        self._transport = transport
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._transport, name)
+
+    async def subscribe(self, *args: Any, **options: Any) -> Subscription:
+        end = await self._transport.subscribe(*args, **options)
+        await self._transport.call(NODES, NodesRequest(), timeout_s=5.0)
+        return end
+
+    async def serve(self, *args: Any) -> Server:
+        end = await self._transport.serve(*args)
+        await self._transport.call(NODES, NodesRequest(), timeout_s=5.0)
+        return end
+
+
+@asynccontextmanager
+async def rosbridge() -> AsyncIterator[Network]:
+    """Two clients of one bridge."""
+    async with (
+        RosbridgeServer() as bridge,
+        RosbridgeTransport(bridge.address, look_s=0.02) as here,
+        RosbridgeTransport(bridge.address, look_s=0.02) as there,
+    ):
+        yield Network(cast(Transport, Bridged(here)), cast(Transport, Bridged(there)))
+
+
 BACKENDS: dict[str, Callable[[], AbstractAsyncContextManager[Network]]] = {
     "local": local,
+    "rosbridge": rosbridge,
     "zenoh": zenoh,
 }
 

@@ -21,7 +21,7 @@ from parley.messages.actions import (
     GoalState,
 )
 from parley.messages.ros import Time
-from parley.transport.actions import RESULTS_KEPT, ActionServer, RunningGoal
+from parley.transport.actions import RESULTS_KEPT, ActionServer, CallingActionClient, RunningGoal
 from parley.transport.base import Outcome, SentGoal
 from tests.transport.backends import Network, until
 
@@ -204,7 +204,8 @@ async def test_goals_are_called_off_all_at_once_or_up_to_a_time(network: Network
 
 async def test_of_goals_long_over_the_server_knows_nothing(network: Network) -> None:
     async with waiting(network):
-        client = await network.here.action_client(WAIT)
+        client = CallingActionClient(network.here, WAIT)  # which asks for results when it is asked itself
+        await client.open()
         sent = [await client.send(WaitGoal(), timeout_s=5.0) for _ in range(RESULTS_KEPT + 1)]
         assert (await ended(sent[-1])).state is GoalState.ABORTED
         assert (await ended(sent[0])).state is GoalState.UNKNOWN

@@ -51,6 +51,16 @@ HASHES = {
     "nav2_msgs/action/Wait_SendGoal": "aa768b9f4248c70a9c68fcf3a52f10300d4b0d21cad3cf39f01f4f3d248c2490",
     "nav2_msgs/action/Wait_GetResult": "6fa1323df11147db06a24a126119f542104f535108774b930b8047cfa34df466",
     "nav2_msgs/action/Wait_FeedbackMessage": "cb143310afa60cc18ef814ac127a730d4ee190828ce9b9a943fa8f0cb1a09f7c",  # noqa: E501
+    "nav2_msgs/action/NavigateToPose": "a56dba8a3234a1215e610180dc703ae25bbf406dded8b54887891c9732857eab",
+    "nav2_msgs/action/NavigateToPose_SendGoal": "a4fcb3bee1bf32e21a0e541a943b221aa0826996e2c98f079b47022b256f48b5",  # noqa: E501
+    "nav_msgs/msg/Odometry": "3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0",
+    "nav_msgs/msg/OccupancyGrid": "8d348150c12913a31ee0ec170fbf25089e4745d17035792a1ba94d6f0bc0cfc7",
+    "sensor_msgs/msg/LaserScan": "64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828",
+    "sensor_msgs/msg/Image": "d31d41a9a4c4bc8eae9be757b0beed306564f7526c88ea6a4588fb9582527d47",
+    "tf2_msgs/msg/TFMessage": "e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087",
+    "geometry_msgs/msg/PoseWithCovarianceStamped": "26432f9803e43727d3c8f668d1fdb3c630f548af631e2f4e31382371bfea3b6e",  # noqa: E501
+    "geometry_msgs/msg/Twist": "9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a",
+    "std_msgs/msg/Bool": "feb91e995ff9ebd09c0cb3d2aed18b11077585839fb5db80193b62d74528f6c9",
     "temoto_msgs/srv/UmrfGraphGet_Request": "a69ace519c1225efba3a21a1235cc6f879cb1009d187c70d012bcf46cc889dfb",  # noqa: E501
 }
 """As a ROS 2 Jazzy that was built from its sources says."""

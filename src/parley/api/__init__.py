@@ -46,7 +46,9 @@ if TYPE_CHECKING:
         Velocity,
     )
     from parley.robots.check import Kept, check_robot
+    from parley.robots.nav2 import Nav2Robot, Nav2Setup
     from parley.robots.own import RobotBase
+    from parley.robots.ros_senses import RosTopics
     from parley.site import Site
     from parley.umrf.action import Outcome, action
     from parley.world.geometry import Pose2D
@@ -75,7 +77,9 @@ _WHERE: Final = {
         "CameraImage", "Detection", "DriveLimits", "LaserScan", "NavigationControl", "Robot", "Velocity",
     ),
     "robots.check": ("Kept", "check_robot"),
+    "robots.nav2": ("Nav2Robot", "Nav2Setup"),
     "robots.own": ("RobotBase",),
+    "robots.ros_senses": ("RosTopics",),
     "site": ("Site",),
     "umrf.action": ("Outcome", "action"),
     "world.geometry": ("Pose2D",),
@@ -88,10 +92,10 @@ __all__ = [
     "ActionCall", "ActionContext", "ActionFailure", "CameraImage", "ChatFeedback", "ConfigError",
     "Detection", "DriveLimits", "Events", "FailureCode", "GraphEvent", "GraphRefusedError", "GraphRun",
     "Incident", "Kept", "LaserScan", "MapObject", "MemoryEntry", "MemoryEvent", "MissingExtraError",
-    "ModelSettings", "NavigationControl", "NotAllowedError", "ObjectMap", "OccupancyMap", "Outcome", "Page",
-    "Parley", "ParleyError", "PlanProposal", "PlanRuling", "PlanUpdate", "Pose2D", "Principal", "Rejection",
-    "Robot", "RobotBase", "Site", "StopReport", "SyncParley", "SystemConfig", "Velocity", "action",
-    "check_robot", "person", "program", "step",
+    "ModelSettings", "Nav2Robot", "Nav2Setup", "NavigationControl", "NotAllowedError", "ObjectMap",
+    "OccupancyMap", "Outcome", "Page", "Parley", "ParleyError", "PlanProposal", "PlanRuling", "PlanUpdate",
+    "Pose2D", "Principal", "Rejection", "Robot", "RobotBase", "RosTopics", "Site", "StopReport",
+    "SyncParley", "SystemConfig", "Velocity", "action", "check_robot", "person", "program", "step",
 ]  # fmt: skip
 
 

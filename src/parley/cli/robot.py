@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
 import importlib
 import inspect
 import sys
+from contextlib import AsyncExitStack
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Final, cast, get_args
 
 import typer
 
@@ -15,14 +17,29 @@ from parley.cli.on_loop import interruptible, on_loop
 from parley.cli.output import emit_json, fail, quiet_logs
 from parley.clock import WallClock
 from parley.errors import ConfigError
+from parley.extras import needs
+from parley.messages.ros_robot import Release
 from parley.robots.base import Robot
 from parley.robots.check import check_robot
 from parley.robots.own import RobotBase
 from parley.site import Site
 from parley.world.geometry import Pose2D
 
+if TYPE_CHECKING:
+    from parley.sim.world_file import WorldFile
+
 __all__ = ["app", "found_class", "made_robot"]
 
+EMPTY_FLOOR: Final = """
+name: empty floor
+walls:
+  - {from: [0, 0], to: [6, 0]}
+  - {from: [6, 0], to: [6, 4]}
+  - {from: [6, 4], to: [0, 4]}
+  - {from: [0, 4], to: [0, 0]}
+robots:
+  - {name: Kim, model: turtlebot3_waffle, pose: [1.0, 1.0, 0.0]}
+"""
 FLOOR_M = 10.0
 """Where no map is given, so much free floor is taken for granted around the robot."""
 
@@ -61,9 +78,52 @@ def check(
     raise typer.Exit(1 if broken else 0)
 
 
+@app.command("simulate")
+def simulate(
+    world: Annotated[
+        Path | None, typer.Option(help="Folder with its world.yaml; default: an empty floor, 6 by 4 metres.")
+    ] = None,
+    port: Annotated[int, typer.Option(help="Where the bridge listens, on this machine; 0: any.")] = 9090,
+    release: Annotated[str, typer.Option(help="Of Nav2: humble, jazzy or lyrical.")] = "jazzy",
+) -> None:
+    """Stand in for robots with Nav2 and rosbridge, by simulated ones, until Ctrl-C."""
+    quiet_logs()
+    if release not in get_args(Release):
+        raise ConfigError(f"there is no release {release!r}; use {', '.join(get_args(Release))}")
+    with needs("sim"):
+        from parley.sim.world_file import WorldFile
+    place = WorldFile.parse(EMPTY_FLOOR) if world is None else Site.load(world).world
+    if place is None:
+        raise ConfigError(f"{world} is no simulated world: it has no world.yaml")
+    on_loop(_simulate(place, port, cast(Release, release)))
+
+
+async def _simulate(world: WorldFile, port: int, release: Release) -> None:
+    with needs("rosbridge"):
+        from parley.transport.rosbridge import RosbridgeServer, RosbridgeTransport
+    from parley.clock import SimClock
+    from parley.robots.nav2_simulated import SimulatedNav2
+    from parley.robots.ros_senses import RosTopics
+    from parley.sim.simulator import Simulator
+
+    names = [robot.name for robot in world.robots]
+    async with AsyncExitStack() as stack:
+        bridge = await stack.enter_async_context(RosbridgeServer(port))
+        simulator = await stack.enter_async_context(Simulator(world, clock=SimClock(), speed=1.0))
+        for name in names:
+            transport = await stack.enter_async_context(RosbridgeTransport(bridge.address))
+            topics = RosTopics(namespace=name if len(names) > 1 else "")
+            await stack.enter_async_context(
+                SimulatedNav2(simulator, name, transport, release=release, topics=topics)
+            )
+            typer.echo(f"{name}: {bridge.address}, namespace {topics.namespace or 'none'}, {release}")
+        await asyncio.Event().wait()
+
+
 async def _check(robot: Robot, world: Path | None, as_json: bool) -> int:
     """Tell what became of each promise; how many are broken."""
     if isinstance(robot, RobotBase):
+        await robot.open()
         given = Site.load(world).occupancy if world is not None else None
         robot.settle(given or _floor_around(robot.pose()), WallClock(), None)
     broken = 0

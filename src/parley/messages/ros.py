@@ -12,6 +12,7 @@ __all__ = [
     "ChatRequest",
     "ChatResponse",
     "CompressedImage",
+    "Duration",
     "Header",
     "String",
     "Time",
@@ -36,6 +37,14 @@ class String:
 @dataclass(frozen=True, slots=True, order=True)
 class Time:
     """builtin_interfaces/msg/Time."""
+
+    sec: int = 0
+    nanosec: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Duration:
+    """builtin_interfaces/msg/Duration."""
 
     sec: int = 0
     nanosec: int = 0

@@ -17,7 +17,7 @@ from parley.errors import ActionFailure
 from parley.robots.base import COMMAND_LIFETIME_S, NavigationControl, Robot, Velocity
 from parley.world.geometry import Pose2D
 
-__all__ = ["PROMISES", "Kept", "Promise", "check_robot"]
+__all__ = ["PROMISES", "Kept", "Promise", "blocked", "check_robot"]
 
 RESTS_WITHIN_S: Final = 0.5
 """After the last command that counts."""
@@ -97,7 +97,7 @@ async def its_pose_follows(robot: Robot) -> None:
 async def commands_expire(robot: Robot) -> None:
     """A command expires after 0.3 s, also while the main loop is blocked."""
     await _drive_on(robot)
-    stood_s = _blocked(robot, 1.2)
+    stood_s = blocked(robot, 1.2)
     _expect(stood_s > 0.1, f"it stood after {stood_s:.2f} s: commands come every {_BEAT_S} s at best")
     limit_s = max(RESTS_WITHIN_S, COMMAND_LIFETIME_S) + 0.1
     _expect(stood_s < limit_s, f"it stood after {stood_s:.2f} s, not within {limit_s:.1f} s")
@@ -110,7 +110,7 @@ async def a_halt_holds(robot: Robot) -> None:
         thread = threading.Thread(target=robot.halt)
         thread.start()
         thread.join()
-    stood_s = _blocked(robot, 0.8)
+    stood_s = blocked(robot, 0.8)
     _expect(stood_s < RESTS_WITHIN_S, f"it stood after {stood_s:.2f} s, not within {RESTS_WITHIN_S} s")
     rests_at = robot.pose()
     for _ in range(6):
@@ -196,7 +196,7 @@ async def _rests(robot: Robot, after: str) -> None:
         await asyncio.sleep(_BEAT_S / 5)
 
 
-def _blocked(robot: Robot, for_s: float) -> float:
+def blocked(robot: Robot, for_s: float) -> float:
     """Block the loop; after how long it stood."""
     began_s, waits = _clock.wall_s(), threading.Event()
     stood_s = for_s

@@ -74,11 +74,20 @@ class OwnFleet:
         self._occupancy = occupancy or NO_MAP
 
     async def __aenter__(self) -> Self:
+        try:
+            for robot in self._robots.values():
+                await robot.open()
+        except BaseException:
+            self._close()
+            raise
         return self
 
     async def __aexit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        self._close()
+
+    def _close(self) -> None:
         for robot in self._robots.values():
             robot.close()
 
@@ -88,17 +97,18 @@ class OwnFleet:
         return tuple(self._robots)
 
     def occupancy(self, robot: str) -> OccupancyMap:
-        """See `Fleet.occupancy`."""
-        return self._occupancy
+        """See `Fleet.occupancy`: the one given, else the robot's own."""
+        return self._occupancy if self._occupancy is not NO_MAP else self._robots[robot].own_map or NO_MAP
 
     def facts(self, robot: str) -> RobotFacts:
         """See `Fleet.facts`."""
         own = self._robots[robot]
-        return RobotFacts(self._occupancy.name, own.radius_m, own.limits.max_speed_mps)
+        return RobotFacts(self.occupancy(robot).name, own.radius_m, own.limits.max_speed_mps)
 
     def robot(self, name: str, rules: RuleBook) -> RobotBase:
         """See `Fleet.robot`."""
         own = self._robots[name]
         fence = Fence(rules, name, braking_mps2=own.limits.max_acceleration_mps2)
-        own.settle(None if self._occupancy is NO_MAP else self._occupancy, self.clock, fence)
+        occupancy = self.occupancy(name)
+        own.settle(None if occupancy is NO_MAP else occupancy, self.clock, fence)
         return own

@@ -13,7 +13,7 @@ from __future__ import annotations
 import asyncio
 import threading
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, ClassVar, Final
+from typing import TYPE_CHECKING, Final
 
 from parley.clock import Clock, WallClock
 from parley.errors import ActionFailure, FailureCode
@@ -61,7 +61,7 @@ class RobotBase(ABC):
     actions ask for."""
     radius_m: float = 0.25
     """Radius of its footprint."""
-    limits: ClassVar[DriveLimits] = DriveLimits(max_speed_mps=0.4, max_turn_radps=1.5)
+    limits: DriveLimits = DriveLimits(max_speed_mps=0.4, max_turn_radps=1.5)
     """How fast it may be driven."""
 
     def __init__(self, name: str) -> None:
@@ -156,6 +156,18 @@ class RobotBase(ABC):
 
     async def speak(self, text: str) -> None:  # noqa: B027 - most robots have none
         """Say something aloud; here there is no loudspeaker. It goes with `loudspeaker`."""
+
+    async def open(self) -> None:  # noqa: B027 - most robots have nothing to wait for
+        """Connect to what needs a moment; called once, on the program's loop, before the robot is used.
+
+        Raises:
+            UnavailableError: It does not answer.
+        """
+
+    @property
+    def own_map(self) -> OccupancyMap | None:
+        """The map it finds its way by itself with, known once it is open; here none."""
+        return None
 
     # -- what is done for you ----------------------------------------------------------------------------
 

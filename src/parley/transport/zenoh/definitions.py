@@ -15,9 +15,11 @@ from rosbags.typesys.store import Typestore
 
 from parley.errors import FileFormatError, UnsupportedError
 
-__all__ = ["Definitions"]
+__all__ = ["Definitions", "of_release"]
 
 OWN: Final = Path(__file__).parent / "interfaces"
+
+RELEASES: Final = Path(__file__).parent / "releases"
 
 Fields = list[tuple[str, Any]]
 """Names, and descriptions as the library has them."""
@@ -25,6 +27,11 @@ Fields = list[tuple[str, Any]]
 UUID: Final = (Nodetype.NAME, "unique_identifier_msgs/msg/UUID")
 TIME: Final = (Nodetype.NAME, "builtin_interfaces/msg/Time")
 EVENT_INFO: Final = (Nodetype.NAME, "service_msgs/msg/ServiceEventInfo")
+
+
+def of_release(name: str) -> Path:
+    """The folder with what a release of ROS defines otherwise than Jazzy; there is none for those like it."""
+    return RELEASES / name
 
 
 class Definitions:

@@ -1,0 +1,255 @@
+"""The ROS messages with which robots move, say where they are and what they see.
+
+Sources: geometry_msgs, nav_msgs, sensor_msgs, tf2_msgs and nav2_msgs of ROS 2, the last of several releases.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, Final, Literal
+
+from parley.messages.actions import Action
+from parley.messages.ros import Duration, Header, Time
+
+__all__ = [
+    "Bool", "Empty", "Image", "LaserScan", "MapMetaData", "NavigateGoal", "NavigateResult", "OccupancyGrid",
+    "Odometry", "Point", "Pose", "PoseStamped", "PoseWithCovariance", "PoseWithCovarianceStamped",
+    "Quaternion", "Release", "TFMessage", "Transform", "TransformStamped", "Twist", "TwistWithCovariance",
+    "Vector3", "navigate_to_pose",
+]  # fmt: skip
+
+Release = Literal["humble", "jazzy", "lyrical"]
+"""Of Nav2, by the words of its messages: `jazzy` is for Kilted too, `lyrical` for Rolling."""
+
+_UNKNOWN: Final = (0.0,) * 36
+
+
+@dataclass(frozen=True, slots=True)
+class Bool:
+    """std_msgs/msg/Bool."""
+
+    data: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Empty:
+    """std_msgs/msg/Empty."""
+
+
+@dataclass(frozen=True, slots=True)
+class Vector3:
+    """geometry_msgs/msg/Vector3."""
+
+    x: float = 0.0
+    y: float = 0.0
+    z: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """geometry_msgs/msg/Point."""
+
+    x: float = 0.0
+    y: float = 0.0
+    z: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Quaternion:
+    """geometry_msgs/msg/Quaternion."""
+
+    x: float = 0.0
+    y: float = 0.0
+    z: float = 0.0
+    w: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Pose:
+    """geometry_msgs/msg/Pose."""
+
+    position: Point = field(default_factory=Point)
+    orientation: Quaternion = field(default_factory=Quaternion)
+
+
+@dataclass(frozen=True, slots=True)
+class PoseStamped:
+    """geometry_msgs/msg/PoseStamped."""
+
+    header: Header = field(default_factory=Header)
+    pose: Pose = field(default_factory=Pose)
+
+
+@dataclass(frozen=True, slots=True)
+class PoseWithCovariance:
+    """geometry_msgs/msg/PoseWithCovariance."""
+
+    pose: Pose = field(default_factory=Pose)
+    covariance: tuple[float, ...] = _UNKNOWN
+
+
+@dataclass(frozen=True, slots=True)
+class PoseWithCovarianceStamped:
+    """geometry_msgs/msg/PoseWithCovarianceStamped."""
+
+    header: Header = field(default_factory=Header)
+    pose: PoseWithCovariance = field(default_factory=PoseWithCovariance)
+
+
+@dataclass(frozen=True, slots=True)
+class Twist:
+    """geometry_msgs/msg/Twist."""
+
+    linear: Vector3 = field(default_factory=Vector3)
+    angular: Vector3 = field(default_factory=Vector3)
+
+
+@dataclass(frozen=True, slots=True)
+class TwistWithCovariance:
+    """geometry_msgs/msg/TwistWithCovariance."""
+
+    twist: Twist = field(default_factory=Twist)
+    covariance: tuple[float, ...] = _UNKNOWN
+
+
+@dataclass(frozen=True, slots=True)
+class Odometry:
+    """nav_msgs/msg/Odometry."""
+
+    header: Header = field(default_factory=Header)
+    child_frame_id: str = ""
+    pose: PoseWithCovariance = field(default_factory=PoseWithCovariance)
+    twist: TwistWithCovariance = field(default_factory=TwistWithCovariance)
+
+
+@dataclass(frozen=True, slots=True)
+class Transform:
+    """geometry_msgs/msg/Transform."""
+
+    translation: Vector3 = field(default_factory=Vector3)
+    rotation: Quaternion = field(default_factory=Quaternion)
+
+
+@dataclass(frozen=True, slots=True)
+class TransformStamped:
+    """geometry_msgs/msg/TransformStamped."""
+
+    header: Header = field(default_factory=Header)
+    child_frame_id: str = ""
+    transform: Transform = field(default_factory=Transform)
+
+
+@dataclass(frozen=True, slots=True)
+class TFMessage:
+    """tf2_msgs/msg/TFMessage."""
+
+    transforms: tuple[TransformStamped, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class MapMetaData:
+    """nav_msgs/msg/MapMetaData."""
+
+    map_load_time: Time = field(default_factory=Time)
+    resolution: float = 0.0
+    width: int = 0
+    height: int = 0
+    origin: Pose = field(default_factory=Pose)
+
+
+@dataclass(frozen=True, slots=True)
+class OccupancyGrid:
+    """nav_msgs/msg/OccupancyGrid."""
+
+    header: Header = field(default_factory=Header)
+    info: MapMetaData = field(default_factory=MapMetaData)
+    data: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class LaserScan:
+    """sensor_msgs/msg/LaserScan."""
+
+    header: Header = field(default_factory=Header)
+    angle_min: float = 0.0
+    angle_max: float = 0.0
+    angle_increment: float = 0.0
+    time_increment: float = 0.0
+    scan_time: float = 0.0
+    range_min: float = 0.0
+    range_max: float = 0.0
+    ranges: tuple[float, ...] = ()
+    intensities: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Image:
+    """sensor_msgs/msg/Image."""
+
+    header: Header = field(default_factory=Header)
+    height: int = 0
+    width: int = 0
+    encoding: str = "rgb8"
+    is_bigendian: int = 0
+    step: int = 0
+    data: bytes = b""
+
+
+@dataclass(frozen=True, slots=True)
+class NavigateGoal:
+    """nav2_msgs/action/NavigateToPose, goal."""
+
+    pose: PoseStamped = field(default_factory=PoseStamped)
+    behavior_tree: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class HumbleResult:
+    """nav2_msgs/action/NavigateToPose, result: Humble says nothing."""
+
+    result: Empty = field(default_factory=Empty)
+
+
+@dataclass(frozen=True, slots=True)
+class NavigateResult:
+    """nav2_msgs/action/NavigateToPose, result since Jazzy."""
+
+    error_code: int = 0
+    error_msg: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class NavigateFeedback:
+    """nav2_msgs/action/NavigateToPose, feedback."""
+
+    current_pose: PoseStamped = field(default_factory=PoseStamped)
+    navigation_time: Duration = field(default_factory=Duration)
+    estimated_time_remaining: Duration = field(default_factory=Duration)
+    number_of_recoveries: int = 0
+    distance_remaining: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class LyricalFeedback:
+    """nav2_msgs/action/NavigateToPose, feedback since Lyrical."""
+
+    current_pose: PoseStamped = field(default_factory=PoseStamped)
+    navigation_time: Duration = field(default_factory=Duration)
+    estimated_time_remaining: Duration = field(default_factory=Duration)
+    number_of_recoveries: int = 0
+    distance_remaining: float = 0.0
+    position_tracking_error: float = 0.0
+    heading_tracking_error: float = 0.0
+
+
+_WORDS: Final[dict[Release, tuple[type[Any], type[Any]]]] = {
+    "humble": (HumbleResult, NavigateFeedback),
+    "jazzy": (NavigateResult, NavigateFeedback),
+    "lyrical": (NavigateResult, LyricalFeedback),
+}
+
+
+def navigate_to_pose(name: str, release: Release) -> Action[NavigateGoal, Any, Any]:
+    """The action by which Nav2 drives to a place, as a release has it."""
+    result, feedback = _WORDS[release]
+    return Action(name, NavigateGoal, result, feedback, "nav2_msgs/action/NavigateToPose")

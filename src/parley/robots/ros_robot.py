@@ -1,0 +1,339 @@
+"""A robot that finds its way by itself, asked over a transport: what Nav2 and move_base have in common.
+
+Goals that nobody watches any more are called off, and it stands until that is certain.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Coroutine
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any, Final, Protocol, TypeVar
+
+from parley.errors import (
+    ActionFailure,
+    FailureCode,
+    GoalRefusedError,
+    TransportError,
+    TransportTimeoutError,
+    UnavailableError,
+)
+from parley.messages.actions import GoalState
+from parley.messages.ros_robot import Bool, PoseStamped, Twist, Vector3
+from parley.robots.base import CameraImage, DriveLimits, LaserScan, NavigationControl, Velocity
+from parley.robots.link import Link
+from parley.robots.own import RobotBase
+from parley.robots.ros_senses import SILENT, RosTopics, Senses
+from parley.robots.ros_values import stamped
+from parley.sentences import sentence
+from parley.transport.base import Outcome, SentGoal, Transport
+from parley.world.geometry import Pose2D
+
+if TYPE_CHECKING:
+    from parley.world.occupancy import OccupancyMap
+
+__all__ = ["Goals", "RosRobot"]
+
+HOLD_S: Final = 0.1
+"""Between two words to the robot on whether it must stand."""
+LOST_S: Final = 1.0
+"""A base that is not heard for so long does not answer."""
+LOOP_S: Final = 0.5
+"""A program whose loop stands for so long does not watch its robot."""
+ASKING_S: Final = 2.0
+READY_S: Final = 10.0
+_ENDING_S: Final = 3.0
+_LOOK_S: Final = 0.02
+_LONG_S: Final = 3600.0
+
+PRESSED: Final = sentence("The emergency stop on me is pressed.")
+LATE: Final = sentence("I did not get there in time.")
+NO_WAY: Final = sentence("I know no way to there.")
+
+T = TypeVar("T")
+
+
+class Goals(Protocol):
+    """How a robot is asked to drive to places. Used on its link."""
+
+    async def open(self, transport: Transport) -> None:
+        """Begin to hear of goals."""
+
+    async def send(
+        self, target: PoseStamped, on_remaining: Callable[[float], None], *, timeout_s: float
+    ) -> SentGoal[Any]:
+        """Ask for a place; see `ActionClient.send`. `on_remaining` gets metres."""
+        ...
+
+    async def call_off(self, *, timeout_s: float) -> bool:
+        """Call off all goals, whosever; whether none was left.
+
+        Raises:
+            UnavailableError: Nobody drives to goals there, or is not seen yet.
+            TransportError: It is not known.
+        """
+        ...
+
+    def failure(self, outcome: Outcome[Any], *, moved: bool) -> ActionFailure:
+        """Why a drive ended without arriving.
+
+        Args:
+            outcome: What was told.
+            moved: Whether the robot came away from where it began.
+        """
+        ...
+
+
+class RosRobot(RobotBase):
+    """See the module.
+
+    Args:
+        name: How people call it.
+        connect: Makes the transport, which is opened in a thread of its own.
+        goals: How it is asked to drive.
+        topics: What it tells and hears.
+        radius_m: Of its footprint.
+        limits: How fast it may be driven.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        connect: Callable[[], Transport],
+        goals: Goals,
+        topics: RosTopics,
+        radius_m: float,
+        limits: DriveLimits,
+    ) -> None:
+        super().__init__(name)
+        self._connect, self._goals, self._names = connect, goals, topics
+        self.radius_m, self.limits = radius_m, limits
+        self.capabilities = frozenset({"drive"} | topics.capabilities)
+        self._senses = Senses(topics, lambda: self._clock.now_s(), lambda: self._clock.wall_s())
+        self._link: Link | None = None
+        self._transport: Transport | None = None
+        self._keeping: asyncio.Task[None] | None = None
+        self._beating: asyncio.Task[None] | None = None
+        self._beat_s = 0.0
+        self._paused = False
+        self._sending: asyncio.Future[Any] | None = None
+        """A goal that the robot was asked for, until it said whether it takes it."""
+        self._unwatched = True
+        """Whether it may be driving to a goal that nobody watches."""
+
+    # -- what robots have --------------------------------------------------------------------------------
+
+    @property
+    def own_map(self) -> OccupancyMap | None:
+        """See `RobotBase.own_map`: the one it drives by."""
+        return self._senses.occupancy
+
+    @property
+    def emergency_pressed(self) -> bool:
+        """Whether a button on the robot holds it, as far as it tells."""
+        return self._senses.emergency
+
+    def pose(self) -> Pose2D:
+        """See `Robot.pose`."""
+        return self._senses.pose(LOST_S)
+
+    def velocity(self) -> Velocity:
+        """See `Robot.velocity`."""
+        return self._senses.velocity(LOST_S)
+
+    def scan(self) -> LaserScan:
+        """See `Robot.scan`."""
+        return self._senses.scan()
+
+    async def image(self) -> CameraImage:
+        """See `Robot.image`."""
+        if self._transport is None:
+            raise ActionFailure(FailureCode.HARDWARE, SILENT)
+        return await self._there(self._senses.picture(self._transport))
+
+    def send(self, velocity: Velocity) -> None:
+        """See `RobotBase.send`."""
+        twist = Twist(Vector3(velocity.linear_mps), Vector3(z=velocity.angular_radps))
+        if self._link is not None and self._transport is not None:
+            self._link.post(lambda: self._cmd_vel.publish(twist))
+
+    def halt(self) -> None:
+        """See `Robot.halt`: besides, it is told to stand, and `go` calls its goal off."""
+        super().halt()
+        self._tell()
+
+    def release(self) -> None:
+        """See `Robot.release`."""
+        super().release()
+        self._tell()
+
+    # -- coming and going --------------------------------------------------------------------------------
+
+    async def open(self) -> None:
+        """See `RobotBase.open`: connects, and waits until it is known where the robot is.
+
+        Raises:
+            UnavailableError: Nobody answers there, or nobody says where the robot is.
+        """
+        self._link = Link(f"link of {self.name}")
+        self._beating = asyncio.create_task(self._beat(), name=f"beat of {self.name}")
+        try:
+            await self._there(self._begin())
+        except BaseException:
+            self.close()
+            raise
+
+    def close(self) -> None:
+        """See `RobotBase.close`: goals are called off, and the connection ends."""
+        super().close()
+        link, self._link = self._link, None
+        if self._beating is not None:
+            self._beating.cancel()
+        if link is not None:
+            link.end(self._end(), _ENDING_S)
+
+    async def _begin(self) -> None:
+        transport = self._connect()
+        await transport.__aenter__()
+        names = self._names
+        self._cmd_vel = transport.publisher(names.topic(names.cmd_vel, Twist))
+        self._hold = transport.publisher(names.topic(names.hold, Bool))
+        self._transport = transport
+        await self._senses.listen(transport)
+        await self._goals.open(transport)
+        self._opened_s = self._clock.wall_s()
+        self._keeping = asyncio.create_task(self._keep(), name=f"hold of {self.name}")
+        try:
+            async with asyncio.timeout(READY_S):
+                await self._senses.ready.wait()
+        except TimeoutError as error:
+            raise UnavailableError(
+                f"{self.name} does not say where it is: {self._senses.missing()}"
+            ) from error
+
+    async def _end(self) -> None:
+        transport, self._transport = self._transport, None
+        if self._keeping is not None:
+            self._keeping.cancel()
+            await asyncio.gather(self._keeping, return_exceptions=True)
+        if transport is not None and self._senses.fresh(LOST_S):
+            with suppress(TransportError):  # it stands as it hears no more of us
+                await self._call_all_off()
+        if transport is not None:
+            await transport.__aexit__(None, None, None)
+
+    # -- that it stands when it must ---------------------------------------------------------------------
+
+    async def _beat(self) -> None:
+        """On the program's loop: it is alive."""
+        while True:
+            self._beat_s = self._clock.wall_s()
+            await asyncio.sleep(HOLD_S)
+
+    def _tell(self) -> None:
+        """Say at once whether it must stand; from any thread."""
+        if self._link is not None and self._transport is not None:
+            self._link.post(self._tell_hold)
+
+    def _tell_hold(self) -> None:
+        silent = self._clock.wall_s() - self._beat_s > LOOP_S
+        self._hold.publish(Bool(self._halted or self._paused or self._unwatched or silent))
+
+    async def _keep(self) -> None:
+        """On the link: say again and again whether it must stand, and call off what nobody watches."""
+        while True:
+            self._tell_hold()
+            if self._unwatched:
+                asked = self._sending is None or self._sending.done()
+                with suppress(TransportError):  # it stands meanwhile, and this is tried again
+                    self._unwatched = not await self._call_all_off() or not asked
+            await self._senses.rest()
+            await asyncio.sleep(HOLD_S)
+
+    async def _call_all_off(self) -> bool:
+        """Whether no goal was left."""
+        try:
+            return await self._goals.call_off(timeout_s=ASKING_S)
+        except UnavailableError:
+            waited_s = self._clock.wall_s() - self._opened_s
+            return self._sending is None and waited_s > ASKING_S and self._senses.fresh(LOST_S)
+
+    # -- driving -----------------------------------------------------------------------------------------
+
+    async def go(self, goal: Pose2D, control: NavigationControl, *, timeout_s: float) -> Pose2D:
+        """See `RobotBase.go`: the robot finds the way. Time in which the robot is held does not count."""
+        left_s, began = timeout_s, self.pose()
+        try:
+            while True:
+                while self._is_held(control):  # noqa: ASYNC110 - whoever pauses says so by a function
+                    await asyncio.sleep(_LOOK_S)
+                started_s = self._clock.now_s()
+                if await self._attempt(goal, control, left_s, began):
+                    return self.pose()
+                left_s -= self._clock.now_s() - started_s
+        finally:
+            self._paused = False
+
+    def _is_held(self, control: NavigationControl) -> bool:
+        self._paused = control.paused()
+        return self._paused or self._halted
+
+    async def _attempt(self, goal: Pose2D, control: NavigationControl, left_s: float, began: Pose2D) -> bool:
+        """Drive to the end of one goal; False: it was held meanwhile."""
+        loop, until_s = asyncio.get_running_loop(), self._clock.now_s() + left_s
+
+        def on_progress(remaining_m: float) -> None:
+            loop.call_soon_threadsafe(control.on_progress, remaining_m)
+
+        drive = asyncio.ensure_future(self._there(self._drive(goal, on_progress)))
+        try:
+            while not drive.done():
+                await asyncio.wait([drive], timeout=_LOOK_S)
+                self._check()
+                if self._is_held(control):
+                    return False
+                if self._clock.now_s() > until_s:
+                    raise ActionFailure(FailureCode.TIMED_OUT, LATE)
+            outcome = drive.result()
+        finally:
+            if not drive.done():
+                self.drive(Velocity())
+                drive.cancel()
+                self._unwatched = True
+                self._tell()
+                await asyncio.gather(drive, return_exceptions=True)
+        if outcome.state is GoalState.SUCCEEDED:
+            return True
+        raise self._goals.failure(outcome, moved=self.pose().distance_to(began) > self.radius_m)
+
+    def _check(self) -> None:
+        """Raises `ActionFailure` if it cannot drive."""
+        if self._senses.emergency:
+            raise ActionFailure(FailureCode.HARDWARE, PRESSED)
+        if not self._senses.fresh(LOST_S):
+            raise ActionFailure(FailureCode.HARDWARE, SILENT)
+
+    async def _drive(self, goal: Pose2D, on_progress: Callable[[float], None]) -> Outcome[Any]:
+        """On the link: one goal to its end."""
+        while self._unwatched:  # noqa: ASYNC110 - set from other threads
+            await asyncio.sleep(_LOOK_S)
+        self._tell_hold()
+        target = stamped(goal, self._names.map_frame, self._clock.unix_ms())
+        try:
+            self._sending = asyncio.ensure_future(self._goals.send(target, on_progress, timeout_s=ASKING_S))
+            sent = await asyncio.shield(self._sending)
+            while True:
+                with suppress(TransportTimeoutError):
+                    outcome: Outcome[Any] = await sent.outcome(timeout_s=_LONG_S)
+                    return outcome
+        except GoalRefusedError as error:
+            raise ActionFailure(FailureCode.UNREACHABLE, NO_WAY) from error
+        except TransportError as error:
+            self._unwatched = True
+            raise ActionFailure(FailureCode.HARDWARE, SILENT, {"why": str(error)}) from error
+
+    async def _there(self, work: Coroutine[Any, Any, T]) -> T:
+        if self._link is None:
+            work.close()
+            raise ActionFailure(FailureCode.HARDWARE, SILENT)
+        return await self._link.run(work)

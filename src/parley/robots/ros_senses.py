@@ -1,0 +1,263 @@
+"""What a ROS robot tells of itself: where it is, how fast, what its laser and camera see, whether it is held.
+
+Everything here runs on the robot's link; the newest word of each is read from anywhere.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Final
+
+import structlog
+
+from parley.errors import ActionFailure, FailureCode, TypeMismatchError
+from parley.messages import ros, ros_robot
+from parley.messages.topics import QoS, Topic
+from parley.robots.base import CameraImage, LaserScan, Velocity
+from parley.robots.ros_values import Frames, map_of, picture_of, planar, scan_of
+from parley.sentences import sentence
+from parley.transport.base import Subscription, Transport
+from parley.world.geometry import Pose2D
+
+if TYPE_CHECKING:
+    from parley.world.occupancy import OccupancyMap
+
+__all__ = ["SILENT", "RosTopics", "Senses"]
+
+PICTURE_S: Final = 3.0
+WATCHED_S: Final = 5.0
+"""For so long after a picture was asked for the camera is listened to: pictures are what fills a network."""
+
+SILENT: Final = sentence("My base does not answer.")
+
+_TYPES: Final[dict[type[Any], str]] = {
+    ros.CompressedImage: "sensor_msgs/msg/CompressedImage",
+    ros_robot.Bool: "std_msgs/msg/Bool",
+    ros_robot.Image: "sensor_msgs/msg/Image",
+    ros_robot.LaserScan: "sensor_msgs/msg/LaserScan",
+    ros_robot.OccupancyGrid: "nav_msgs/msg/OccupancyGrid",
+    ros_robot.Odometry: "nav_msgs/msg/Odometry",
+    ros_robot.PoseWithCovarianceStamped: "geometry_msgs/msg/PoseWithCovarianceStamped",
+    ros_robot.TFMessage: "tf2_msgs/msg/TFMessage",
+    ros_robot.Twist: "geometry_msgs/msg/Twist",
+}
+_USUAL: Final = QoS()
+_STREAM: Final = QoS(reliable=False, depth=5)
+PICTURES: Final = QoS(reliable=False, depth=1)
+_STATE: Final = QoS(latched=True, depth=1)
+
+log = structlog.get_logger(__name__)
+
+
+@dataclass(frozen=True, slots=True)
+class RosTopics:
+    """What a robot's topics and frames are called; an empty name: it has none of that."""
+
+    namespace: str = ""
+    """Before all names."""
+    odom: str = "odom"
+    amcl_pose: str = "amcl_pose"
+    tf: str = "tf"
+    tf_static: str = "tf_static"
+    map: str = "map"
+    scan: str = "scan"
+    camera: str = "camera/image_raw/compressed"
+    """Of type CompressedImage if it ends so, else Image."""
+    emergency: str = ""
+    """A std_msgs/Bool that is true while a button on the robot holds it."""
+    cmd_vel: str = "cmd_vel"
+    hold: str = "parley/hold"
+    """Says ten times a second whether it must stand: a lock of twist_mux, so that silence holds it too."""
+    map_frame: str = "map"
+    base_frame: str = "base_link"
+
+    @property
+    def capabilities(self) -> frozenset[str]:
+        """What it can sense."""
+        return frozenset(({"camera"} if self.camera else set()) | ({"lidar"} if self.scan else set()))
+
+    def topic(self, name: str, kind: type[Any], qos: QoS = _USUAL) -> Topic[Any]:
+        """One of its topics."""
+        return Topic(self.name(name), kind, _TYPES[kind], qos)
+
+    def name(self, name: str) -> str:
+        """A name with the namespace before it."""
+        return f"{self.namespace}/{name}" if self.namespace and not name.startswith("/") else name
+
+    def told(self) -> Iterator[tuple[str, type[Any], QoS]]:
+        """What it tells on which topic, of all that it has."""
+        every = (
+            (self.tf_static, ros_robot.TFMessage, QoS(latched=True, depth=100)),
+            (self.tf, ros_robot.TFMessage, QoS(depth=100)),
+            (self.amcl_pose, ros_robot.PoseWithCovarianceStamped, _STATE),
+            (self.odom, ros_robot.Odometry, _STREAM),
+            (self.map, ros_robot.OccupancyGrid, _STATE),
+            (self.scan, ros_robot.LaserScan, _STREAM),
+            (self.camera, self.camera_type, PICTURES),
+            (self.emergency, ros_robot.Bool, _STATE),
+        )
+        return ((name, kind, qos) for name, kind, qos in every if name)
+
+    @property
+    def camera_type(self) -> type[Any]:
+        """Of its pictures."""
+        return ros.CompressedImage if self.camera.endswith("compressed") else ros_robot.Image
+
+
+class Senses:
+    """The newest of everything.
+
+    Args:
+        topics: Where it is told.
+        now_s: The robot's time.
+        wall_s: Wall time.
+    """
+
+    def __init__(self, topics: RosTopics, now_s: Callable[[], float], wall_s: Callable[[], float]) -> None:
+        self._topics, self._now_s, self._wall_s = topics, now_s, wall_s
+        self._frames = Frames()
+        self._amcl: Pose2D | None = None
+        self._odom: ros_robot.Odometry | None = None
+        self._heard_s = 0.0
+        self._sweep: tuple[ros_robot.LaserScan, float] | None = None
+        self._camera: Subscription | None = None
+        self._picture: tuple[Any, float] | None = None
+        self._pictures = asyncio.Condition()
+        self._watched_s = 0.0
+        self.occupancy: OccupancyMap | None = None
+        self.emergency = False
+        self.ready = asyncio.Event()
+        """It is known where the robot is and how fast."""
+
+    async def listen(self, transport: Transport) -> None:
+        """Hear of everything but pictures, which are heard while somebody wants them."""
+        handlers: dict[str, Callable[[Any], None]] = {
+            self._topics.tf_static: self._on_frames,
+            self._topics.tf: self._on_frames,
+            self._topics.amcl_pose: self._on_amcl,
+            self._topics.odom: self._on_odom,
+            self._topics.map: self._on_map,
+            self._topics.scan: self._on_scan,
+            self._topics.emergency: self._on_emergency,
+        }
+        for name, kind, qos in self._topics.told():
+            if name in handlers:
+                await transport.subscribe(self._topics.topic(name, kind, qos), handlers[name])
+
+    # -- read from anywhere ------------------------------------------------------------------------------
+
+    def fresh(self, within_s: float) -> bool:
+        """Whether the base was heard lately."""
+        return self._wall_s() - self._heard_s <= within_s
+
+    def missing(self) -> str:
+        """What is not heard, for engineers."""
+        names = self._topics
+        found = {
+            f"{names.name(names.odom)} (odometry)": self._odom,
+            f"{names.name(names.tf)} from {names.base_frame} to {names.map_frame}, or "
+            f"{names.name(names.amcl_pose)} (pose)": self._pose(),
+        }
+        return "nothing on " + " and ".join(what for what, told in found.items() if told is None)
+
+    def pose(self, within_s: float) -> Pose2D:
+        """Where the robot is.
+
+        Raises:
+            ActionFailure: `hardware`: it is not known, or not heard for longer than allowed.
+        """
+        pose = self._pose()
+        if pose is None or not self.fresh(within_s):
+            raise ActionFailure(FailureCode.HARDWARE, SILENT)
+        return pose
+
+    def velocity(self, within_s: float) -> Velocity:
+        """How fast it moves.
+
+        Raises:
+            ActionFailure: See `pose`.
+        """
+        if self._odom is None or not self.fresh(within_s):
+            raise ActionFailure(FailureCode.HARDWARE, SILENT)
+        twist = self._odom.twist.twist
+        return Velocity(twist.linear.x, twist.angular.z)
+
+    def scan(self) -> LaserScan:
+        """The newest sweep.
+
+        Raises:
+            ActionFailure: `hardware`: there is none.
+        """
+        if self._sweep is None:
+            raise ActionFailure(FailureCode.HARDWARE, sentence("My laser tells nothing."))
+        return scan_of(*self._sweep)
+
+    def _pose(self) -> Pose2D | None:
+        """By the frames; where nobody tells them, by the localisation alone."""
+        return self._frames.find(self._topics.base_frame, self._topics.map_frame) or self._amcl
+
+    # -- on the link -------------------------------------------------------------------------------------
+
+    async def picture(self, transport: Transport) -> CameraImage:
+        """The next picture.
+
+        Raises:
+            ActionFailure: `not_capable` without a camera, `hardware` if none comes.
+        """
+        if not self._topics.camera:
+            raise ActionFailure(FailureCode.NOT_CAPABLE, sentence("I have no camera."))
+        self._watched_s, before = self._wall_s(), self._picture
+        if self._camera is None:
+            topic = self._topics.topic(self._topics.camera, self._topics.camera_type, PICTURES)
+            self._camera = await transport.subscribe(topic, self._on_picture)
+        try:
+            async with asyncio.timeout(PICTURE_S), self._pictures:
+                await self._pictures.wait_for(lambda: self._picture is not before)
+        except TimeoutError:
+            raise ActionFailure(FailureCode.HARDWARE, sentence("My camera gives no picture.")) from None
+        assert self._picture is not None
+        told, stamp_s = self._picture
+        pixels = picture_of(told)
+        height, width, _ = pixels.shape
+        return CameraImage(width, height, "rgb8", pixels, stamp_s)
+
+    async def rest(self) -> None:
+        """Listen to the camera no more if nobody wanted a picture for a while."""
+        if self._camera is not None and self._wall_s() - self._watched_s > WATCHED_S:
+            camera, self._camera = self._camera, None
+            await camera.close()
+
+    def _on_frames(self, told: ros_robot.TFMessage) -> None:
+        self._frames.learn(told)
+        self._look()
+
+    def _on_amcl(self, told: ros_robot.PoseWithCovarianceStamped) -> None:
+        self._amcl = planar(told.pose.pose.position, told.pose.pose.orientation)
+        self._look()
+
+    def _on_odom(self, told: ros_robot.Odometry) -> None:
+        self._odom, self._heard_s = told, self._wall_s()
+        self._look()
+
+    def _look(self) -> None:
+        if not self.ready.is_set() and self._odom is not None and self._pose() is not None:
+            self.ready.set()
+
+    def _on_scan(self, told: ros_robot.LaserScan) -> None:
+        self._sweep = told, self._now_s()
+
+    def _on_map(self, told: ros_robot.OccupancyGrid) -> None:
+        try:
+            self.occupancy = map_of(told, self._topics.map)
+        except TypeMismatchError as error:
+            log.warning("the robot's map cannot be used", why=str(error))
+
+    def _on_emergency(self, told: ros_robot.Bool) -> None:
+        self.emergency = told.data
+
+    async def _on_picture(self, told: Any) -> None:
+        async with self._pictures:
+            self._picture = told, self._now_s()
+            self._pictures.notify_all()

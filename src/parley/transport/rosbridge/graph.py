@@ -1,0 +1,148 @@
+"""Who is there behind a bridge, as far as its `rosapi` tells."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable, Iterable
+from typing import Any, Final
+
+import structlog
+
+from parley.errors import TransportError, TypeMismatchError, UnavailableError
+from parley.messages.topics import Service
+from parley.transport.base import Endpoint, absolute
+from parley.transport.rosbridge.rosapi import (
+    ACTION_SERVERS,
+    NODE_DETAILS,
+    NODES,
+    SERVICE_TYPE,
+    TOPICS,
+    ActionServersRequest,
+    NodeDetailsRequest,
+    NodesRequest,
+    ServiceTypeRequest,
+    TopicsRequest,
+)
+
+__all__ = ["Graph"]
+
+Ask = Callable[[Service[Any, Any], Any], Awaitable[Any]]
+
+_PARTS: Final = ("send_goal", "cancel_goal", "get_result")
+
+log = structlog.get_logger(__name__)
+
+
+class Graph:
+    """Own ends at once, those of others whenever `look` was at the bridge. Used on the loop only."""
+
+    def __init__(self) -> None:
+        self._own: list[Endpoint] = []
+        self._seen: frozenset[Endpoint] = frozenset()
+        self._service_types: dict[str, str] = {}
+        self._watchers: list[Callable[[], Any]] = []
+        self._changes = 0
+        self.known = False
+        """Whether the bridge tells who is there; without its `rosapi` it does not."""
+
+    def endpoints(self) -> tuple[Endpoint, ...]:
+        """Who is there now."""
+        return tuple(self._seen.union(self._own))
+
+    def on_changed(self, watcher: Callable[[], Any]) -> Callable[[], None]:
+        """Call `watcher` whenever somebody comes or goes; returns how to stop that."""
+        self._watchers.append(watcher)
+        return lambda: self._watchers.remove(watcher) if watcher in self._watchers else None
+
+    def add_own(self, end: Endpoint) -> None:
+        """An end of this process is open."""
+        self._own.append(end)
+        self._changed()
+
+    def remove_own(self, end: Endpoint) -> None:
+        """An end of this process is closed; if others have the same, the next look shows it."""
+        self._own.remove(end)
+        self._changes += 1
+        if end not in self._own:
+            self._seen -= {end}
+        self._changed()
+
+    def lost(self) -> None:
+        """The bridge is gone, and with it everybody else."""
+        self.known, self._changes = False, self._changes + 1
+        self._service_types.clear()
+        self._see(frozenset())
+
+    def check(self, name: str, ros_type: str, *, service: bool) -> None:
+        """Raises `TypeMismatchError` if the name is in use with another type."""
+        for end in self.endpoints():
+            if end.name != absolute(name) or (end.role == "server") != service:
+                continue
+            if end.ros_type and end.ros_type != ros_type:
+                raise TypeMismatchError(
+                    f"{name} is in use as {end.ros_type}, not {ros_type}; use the same type on both sides"
+                )
+
+    def serves(self, name: str) -> bool:
+        """Whether somebody answers this service, as far as one can tell."""
+        return any(end.role == "server" and end.name == absolute(name) for end in self.endpoints())
+
+    async def look(self, ask: Ask) -> None:
+        """Ask the bridge who is there."""
+        changes = self._changes
+        try:
+            found = await self._find(ask)
+        except UnavailableError:
+            if self.known or not changes:
+                log.info("the bridge does not tell who is there: its rosapi node does not run")
+            self.known, found = False, frozenset()
+        except TransportError as error:  # it was asked too much, or went: the next look is soon
+            log.info("the bridge did not tell who is there", why=str(error))
+            return
+        else:
+            self.known = True
+        if changes == self._changes:
+            self._see(found)
+
+    async def _find(self, ask: Ask) -> frozenset[Endpoint]:
+        told = await ask(TOPICS, TopicsRequest())
+        types = {
+            name: _long(ros_type, "msg") for name, ros_type in zip(told.topics, told.types, strict=False)
+        }
+        ends: set[Endpoint] = set()
+        for node in (await ask(NODES, NodesRequest())).nodes:
+            has = await ask(NODE_DETAILS, NodeDetailsRequest(node))
+            ends.update(_ends(has.publishing, types, "publisher"))
+            ends.update(_ends(has.subscribing, types, "subscription"))
+            for service in has.services:
+                if service not in self._service_types:
+                    told_type = (await ask(SERVICE_TYPE, ServiceTypeRequest(service))).type
+                    self._service_types[service] = _long(told_type, "srv")
+            ends.update(_ends(has.services, self._service_types, "server"))
+        try:
+            actions = (await ask(ACTION_SERVERS, ActionServersRequest())).action_servers
+        except UnavailableError:  # ROS 1 has none
+            actions = ()
+        ends.update(Endpoint(f"{name}/_action/{part}", "", "server") for name in actions for part in _PARTS)
+        gone = self._service_types.keys() - {end.name for end in ends if end.role == "server"}
+        for name in gone:
+            del self._service_types[name]
+        return frozenset(ends)
+
+    def _see(self, seen: frozenset[Endpoint]) -> None:
+        if seen != self._seen:
+            self._seen = seen
+            self._changed()
+
+    def _changed(self) -> None:
+        for watcher in list(self._watchers):
+            watcher()
+
+
+def _ends(names: Iterable[str], types: dict[str, str], role: str) -> set[Endpoint]:
+    return {Endpoint(name, types.get(name, ""), role) for name in names}
+
+
+def _long(ros_type: str, kind: str) -> str:
+    """A type's name as ROS 2 has it: `std_msgs/String` is `std_msgs/msg/String`."""
+    package, _, name = ros_type.partition("/")
+    return ros_type if "/" in name or not name else f"{package}/{kind}/{name}"
