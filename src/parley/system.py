@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import math
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractAsyncContextManager, AsyncExitStack
 from dataclasses import dataclass
@@ -75,6 +76,7 @@ from parley.umrf.action import ActionSpec, RunHandle
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.discovery import ActionFolder, LiveActions, installed_actions
 from parley.umrf.model import GraphState
+from parley.world.approach import Spot
 from parley.world.found import FoundThings
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject, ObjectMap
@@ -102,12 +104,30 @@ class WorldView:
     """What one robot knows about its surroundings."""
 
     system: System
+    robot: str
     occupancy: OccupancyMap
 
     @property
     def objects(self) -> ObjectMap:
         """The objects people may name, with what was found."""
         return self.system.known
+
+    @property
+    def taken(self) -> tuple[Spot, ...]:
+        """See `parley.actions.context.World.taken`."""
+        others = [robot for name, robot in self.system.robots.items() if name != self.robot]
+        here = [(robot.pose(), robot.radius_m) for robot in others]
+        return (*((pose.x_m, pose.y_m, radius_m) for pose, radius_m in here), *self._claimed)
+
+    @property
+    def _claimed(self) -> tuple[Spot, ...]:
+        return tuple(spot for name, spot in self.system.claims.items() if name != self.robot)
+
+    def claim(self, spot: Pose2D) -> bool:
+        """See `parley.actions.context.World.claim`."""
+        own = (spot.x_m, spot.y_m, self.system.robots[self.robot].radius_m)
+        self.system.claims[self.robot] = own
+        return all(math.dist(own[:2], other[:2]) > own[2] + other[2] for other in self._claimed)
 
     async def note(self, label: str, place: Footprint) -> MapObject | None:
         """See `parley.actions.context.World.note`."""
@@ -172,6 +192,8 @@ class System:
         self._problems = installed.problems
         self.catalogue = Catalogue(self._actions)
         self.robots: dict[str, Robot] = {}
+        self.claims: dict[str, Spot] = {}
+        """Where each robot was going to stand last."""
         self.stop_line: StopLine
         """Stops the robots, from any thread; there once the system is open."""
         self.store: MemoryStore | None = None
@@ -424,7 +446,7 @@ class System:
         return engine
 
     def _view(self, robot: str) -> WorldView:
-        return WorldView(self, self.fleet.occupancy(robot))
+        return WorldView(self, robot, self.fleet.occupancy(robot))
 
     async def _judge(
         self,
