@@ -51,7 +51,7 @@ from parley.gate.places import Resolver
 from parley.gate.rule_talk import RuleTalk, left_over_rule
 from parley.gate.rules import RuleKeeper
 from parley.gate.stop_line import StopLine
-from parley.gate.ways import judge_with_ways
+from parley.gate.ways import judge_with_ways, with_walls
 from parley.language.base import Language
 from parley.language.llm import build_language
 from parley.language.llm.usage import Usage
@@ -71,6 +71,7 @@ from parley.robots.base import Robot
 from parley.robots.fleet import Fleet, OwnFleet
 from parley.robots.own import RobotBase
 from parley.robots.run_robot import RunRobot
+from parley.team.outlook import Outlook, Task, survey
 from parley.transport.base import Publisher, Transport
 from parley.umrf.action import ActionSpec, RunHandle
 from parley.umrf.catalogue import Catalogue
@@ -305,6 +306,7 @@ class System:
             language_timeout_s=config.language_timeout_s,
             rules=rules,
             rooms=self.objects.rooms,
+            survey=self._survey,
         )
         await enter(self._speaking(chat))
         await enter(self._speaking(Lookout(transport, clock)))
@@ -467,6 +469,36 @@ class System:
         steps = await resolver.resolve(calls, catalogue, pose)
         return await judge_with_ways(
             self.rules, robot, steps, view.occupancy, by=by, pose=pose, people=view.objects.people
+        )
+
+    async def _survey(
+        self,
+        robot: str,
+        catalogue: Sequence[ActionInfo],
+        pose: Pose2D,
+        pending: Sequence[ActionCall],
+        tasks: Sequence[Task],
+    ) -> Outlook | None:
+        """What a robot of ours has before it, by ways around what is closed to it."""
+        if robot not in self.robots:
+            return None
+        view, facts, here = self._view(robot), self.rules.facts(robot), (pose.x_m, pose.y_m)
+        resolver = Resolver(
+            self.language.ground,
+            view.objects.places,
+            view.occupancy,
+            radius_m=facts.radius_m,
+            clock=self.clock,
+        )
+        zones = [self.rules.shape(rule) for rule in self.rules.closed_to(robot, None)]
+        return await survey(
+            lambda calls, start: resolver.resolve(calls, catalogue, start),
+            with_walls(view.occupancy, zones, here, facts.radius_m),
+            pose,
+            pending,
+            tasks,
+            radius_m=facts.radius_m,
+            speed_mps=facts.speed_mps,
         )
 
     def _objects_of(self, _robot: str) -> Sequence[MapObject]:

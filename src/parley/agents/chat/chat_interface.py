@@ -17,9 +17,11 @@ from parley.agents.chat.finishing import Finishing
 from parley.agents.chat.holds import Holds
 from parley.agents.chat.log_answers import log_answer
 from parley.agents.chat.memories import Confirmations
+from parley.agents.chat.missions import Missions
 from parley.agents.chat.recollections import Recollections
 from parley.agents.chat.situations import Situations
 from parley.agents.chat.teaching import Teaching
+from parley.agents.chat.team import TeamTalk
 from parley.agents.planner.asking import SHALL_I, Offered, wish_of
 from parley.agents.planner.orders import no_robot
 from parley.agents.planner.steps import LATCHED
@@ -53,6 +55,7 @@ from parley.messages.status import (
     StopCommand,
 )
 from parley.sentences import sentence, together
+from parley.team.outlook import Survey
 from parley.transport.base import Transport
 from parley.world.object_map import MapObject
 
@@ -77,6 +80,7 @@ class ChatInterface(Node):
         patience_s: Wall time after which the operator is told that an answer takes long.
         rules: Hears what people say about rules before any language engine does.
         rooms: Parts of the map with a name, as goals.
+        survey: Says what each robot has before it, for sharing work; None: nobody can tell.
     """
 
     name: ClassVar[str] = "chat_interface"
@@ -94,6 +98,7 @@ class ChatInterface(Node):
         patience_s: float = PATIENCE_S,
         rules: RuleTalk | None = None,
         rooms: Sequence[MapObject] = (),
+        survey: Survey | None = None,
     ) -> None:
         super().__init__(transport)
         self._rules = rules
@@ -125,6 +130,8 @@ class ChatInterface(Node):
             has_rules=lambda: self._rules is not None and self._rules.has_rules,
         )
         self._say = self._answering.say
+        talk = TeamTalk(language, self._known, self._presence, survey, self._offered.newest)
+        self._missions = Missions(self, talk, self._answering, self._known, self._presence, language.label)
 
     async def open(self) -> None:
         """See `Node.open`."""
@@ -170,6 +177,7 @@ class ChatInterface(Node):
             self._questions.on_input(said)
             return  # an answer; where several robots wait, the error handler asks which is meant
         calls, refuses = calls_to_stop(said.message), self._says_no(said.message, control)
+        hear: list[tuple[str, ChatFeedback | None]] = []
         for target in self._meant(said, control, calls=calls):
             question = self._questions.newest(target) if said.type == "response" else None
             offered = self._offered.newest(target) is not None and question is None
@@ -193,25 +201,58 @@ class ChatInterface(Node):
                 text = texts.not_there(target)
                 self._say((target,), text, "error", said.id)
             else:
-                self._hear(target, said, question)
+                hear.append((target, question))
+        self._hear_all(hear, said)
         self._questions.on_input(said)
 
-    def _hear(self, target: str, said: ChatInput, question: ChatFeedback | None) -> None:
-        """Have something understood, unless it answers `question` or is about what waits or takes long."""
+    def _hear_all(self, hear: Sequence[tuple[str, ChatFeedback | None]], said: ChatInput) -> None:
+        """Have something understood by those it was said to, each with the question that it answers."""
+        team = tuple(target for target, _ in hear)
+        if len(hear) > 1 and all(question is None for _, question in hear):
+            self._hear(team[0], said, None, team)
+            return
+        for target, question in hear:
+            self._hear(target, said, question)
+
+    def _hear(
+        self, target: str, said: ChatInput, question: ChatFeedback | None, team: Sequence[str] = ()
+    ) -> None:
+        """Have something understood, unless it answers `question` or is about what waits or takes long.
+
+        Args:
+            target: The robot.
+            said: The message.
+            question: What it answers.
+            team: All that hear it with this one: one understands it, and the others only what is not for all.
+        """
         names = self._presence.names()
         decision = self._offered.decided(target, said, names) if question is None else None
         if decision is not None:
             self._hand_on(target, decision, said)
+            for mate in self._missions.mates(target) - {*said.targets}:
+                other = self._offered.decided(mate, said, names)
+                if other is not None and self._offered.is_asked(mate):
+                    self.publish(topics.PLAN_DECISION, other)
+        elif question is None and (self._set_aside(target, said) or self._undoes(target, said)):
+            pass
+        elif self._understands(target, said, question, team):
             return
-        if question is None and (self._set_aside(target, said) or self._undoes(target, said)):
-            return
+        for other_robot in team[1:]:
+            self._hear(other_robot, said, None)
+
+    def _understands(
+        self, target: str, said: ChatInput, question: ChatFeedback | None, team: Sequence[str]
+    ) -> bool:
+        """Have a message understood; whether that is seen to for all of `team`."""
         about = said.reply_to or (question.id if question else "")
         known = self._recollections.asked(about) or (self._rules is not None and self._rules.asked(about))
         ours = about if said.type == "response" and known else ""
         if question is None or ours:
-            self._mailboxes.post(target, self._work(target, said, ours))
-        elif said.images:
+            self._mailboxes.post(target, self._work(target, said, ours, team))
+            return True
+        if said.images:
             self._mailboxes.post(target, self._keep_pictures(target, said, question.message))
+        return False
 
     def _only_stops(self, said: ChatInput) -> None:
         """Hear who may give no orders: everybody may call to stop, and what else is in it does not count."""
@@ -267,21 +308,32 @@ class ChatInterface(Node):
         asked = self._offered.is_asked(target) or begins_with_no(said.message)
         return asked and assent_of(said.message, self._presence.names()) is False
 
-    def _work(self, target: str, said: ChatInput, ours: str = "") -> Callable[[], Awaitable[None]]:
+    def _work(
+        self, target: str, said: ChatInput, ours: str = "", team: Sequence[str] = ()
+    ) -> Callable[[], Awaitable[None]]:
         halts = dict(self._halts)
 
-        async def work() -> None:
+        async def understood() -> bool:
+            """Whether it was an order to all together."""
             if await self._about_rules(target, said, ours):
-                return
+                return False
             mine = ours if self._recollections.asked(ours) else ""
+            together_done = False
             if not mine and (answer := await log_answer(self.transport, self._clock, target, said)):
                 self._say((target,), answer, "response", said.id)
             elif not await self._recollections.handles(target, said, mine):
                 order = await self._teaching.handles(target, said)
                 heard = said.model_copy(update={"message": order}) if order else said
-                if order != "":
+                together_done = order != "" and await self._missions.handles(target, heard, halts, team)
+                if order != "" and not together_done:
                     await self._answering.answer(target, heard, halts)
             self._ask_about_rules_again(target, said)
+            return together_done
+
+        async def work() -> None:
+            if not await understood():
+                for other in team[1:]:
+                    self._hear(other, said, None)
 
         return work
 

@@ -58,6 +58,8 @@ class Proposals:
             by=order.by,
             why=self._node.spoken(why),
             words=order.words,
+            order=order.id,
+            after=order.after,
             **self._told(plan, calls, bound),
         )
         for same in [item for item in self._plans.approvals.of(target) if item.digest == proposal.digest]:

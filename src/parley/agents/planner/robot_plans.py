@@ -71,6 +71,8 @@ class RobotPlans:
         self.approvals, self.objects = approvals, objects
         self.settle = approvals.drop_settled
         """Forgets what waits for a yes and is over; looked at whenever a plan changes."""
+        self.changed: Callable[[], None] = lambda: None
+        """Called whenever a plan has changed, or a robot has left."""
         self.board = PlanBoard(self.catalogue, objects)
         self.held_by: dict[str, Principal] = {}
         """Who told each robot to stand still, until it goes on."""
@@ -161,6 +163,7 @@ class RobotPlans:
             text = sentence("I have lost contact with {robot}. Its plan is kept.", robot=robot)
             if plan.pending:
                 self.say(robot, text, "error")
+            self.changed()
         elif (status := self.presence.get(robot)) is not None:
             self.send(plan, plan.reports.on_return(status.graphs))
 
@@ -205,6 +208,7 @@ class RobotPlans:
         update = self.board.show(plan, self.approvals, self.held_by.get(plan.target))
         if update is not None:
             self._node.publish(topics.PLAN, update)
+        self.changed()
 
     def accept(
         self,
