@@ -10,16 +10,19 @@ import pytest
 
 from parley.config import SystemConfig
 from parley.demos.catalogue import load_demo
+from parley.messages import topics
 from parley.messages.chat import ChatFeedback
+from parley.messages.status import ActorStatus
 from tests.demos.house import PATIENCE_S, House, played, running
 
 ROBOTS = ("Spot", "TIAGo", "Leo")
 
 
 @asynccontextmanager
-async def hall(**settings: str) -> AsyncIterator[House]:
+async def hall(variant: str = "", **settings: str) -> AsyncIterator[House]:
     demo = load_demo("fleet")
-    async with running(demo.system(SystemConfig(speed=None).changed(settings))) as home:
+    system = demo.system(SystemConfig(speed=None).changed(settings), demo.story.variant(variant))
+    async with running(system) as home:
         yield home
 
 
@@ -116,6 +119,26 @@ async def test_a_part_that_waits_is_asked_about_when_the_other_or_it_is_stopped(
         assert "told to stop before I began" in home.observer.proposed["TIAGo"].why
         assert set(await home.done("Leo")) == {"finished"}
         assert home.observer.state("TIAGo") == "awaiting_approval"
+
+
+async def test_what_a_robot_leaves_undone_is_offered_to_the_best_of_the_others() -> None:
+    async with hall("blocked_doorway") as home:
+        await told(home, "Check all three areas", *ROBOTS)
+
+        def offers(robot: str) -> list[ChatFeedback]:
+            return [said for said in home.observer.said if f"what is left of {robot}’s part" in said.message]
+
+        home.observer.publish(topics.ACTOR_STATUS, ActorStatus(actor="Leo", state="leaving"))
+        await home.observer.until(lambda: bool(offers("Leo")), timeout_s=PATIENCE_S)
+        await home.observer.until(lambda: bool(offers("TIAGo")), timeout_s=PATIENCE_S)  # its way is blocked
+        assert goals(home)["TIAGo"] == ["Area A"]  # nothing is given on by itself
+        (words,) = offers("TIAGo")[0].choices
+        taker = words.split()[1]
+        await home.say(words, "TIAGo")
+        await home.observer.until(lambda: "Area A" in goals(home)[taker], timeout_s=PATIENCE_S)
+        assert set(await home.done("TIAGo")) <= {"finished", "stopped"}
+        assert set(await home.done(taker)) == {"finished"}
+        assert home.distance_m("area_a", taker) < 1.6
 
 
 @pytest.mark.parametrize(("variant", "reason"), [("other_words", ""), ("no_area", "other_reply")])

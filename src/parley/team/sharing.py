@@ -7,13 +7,14 @@ from collections.abc import Mapping, Sequence
 from typing import Final
 
 from parley.messages.chat import ActionCall
-from parley.messages.status import ActionInfo
+from parley.messages.status import ActionInfo, PlanStep
 from parley.sentences import Sentence, sentence
 from parley.team.allotment import allot
 from parley.team.outlook import Outlook, Task
 
-__all__ = ["alike", "place_of", "shared", "tasks_of", "why"]
+__all__ = ["alike", "left_of", "place_of", "shared", "tasks_of", "why"]
 
+_OVER: Final = ("finished", "skipped", "stopped")
 WEAK: Final = 0.15
 """With less battery than this a robot is given something only if nobody else can do it."""
 
@@ -30,6 +31,34 @@ def tasks_of(calls: Sequence[ActionCall], catalogue: Sequence[ActionInfo]) -> li
 def alike(tasks: Sequence[Task]) -> bool:
     """Whether the same is done at several places, so that none of it needs what came of another."""
     return len(tasks) > 1 and len({tuple(call.name for call in task) for task in tasks}) == 1
+
+
+def left_of(steps: Sequence[PlanStep], catalogue: Sequence[ActionInfo]) -> list[Task]:
+    """The tasks of a plan that are not over, each from its beginning, as somebody else would do it."""
+    tasks = tasks_of([step.action for step in steps], catalogue)
+    if len(tasks) == 1:
+        return [_unfilled(tasks[0])] if any(step.state not in _OVER for step in steps) else []
+    found: list[Task] = []
+    at = 0
+    for task in tasks:
+        own, at = steps[at : at + len(task)], at + len(task)
+        if any(step.state not in _OVER for step in own):
+            found.append(_unfilled(task))
+    return found
+
+
+def _unfilled(task: Task) -> Task:
+    """Without what its own steps found out for the robot that did them."""
+    given: set[str] = set()
+    calls: list[ActionCall] = []
+    for call in task:
+        inputs = {
+            name: value.with_value(None) if name in given else value
+            for name, value in call.input_parameters.items()
+        }
+        calls.append(call.model_copy(update={"input_parameters": inputs}))
+        given |= {*call.output_parameters}
+    return tuple(calls)
 
 
 def place_of(task: Task) -> str:

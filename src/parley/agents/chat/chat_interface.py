@@ -104,7 +104,12 @@ class ChatInterface(Node):
         self._rules = rules
         self._clock = clock
         self._thinking = Thinking(language_timeout_s, patience_s)
-        self._presence = Presence(clock, tuple(known_robots), linked=linked_to(transport))
+        self._presence = Presence(
+            clock,
+            tuple(known_robots),
+            lambda *told: self._missions.on_presence(*told),
+            linked=linked_to(transport),
+        )
         self._halts: dict[str, int] = {}
         """How often each robot was told to stop."""
         self._known = Situations(transport, self._presence, objects, history_exchanges, clock, rooms)
@@ -430,6 +435,7 @@ class ChatInterface(Node):
         self._known.on_plan(told)
         self._offered.on_update(told)
         self._holds.on_update(told)
+        self._missions.on_plan(told)
         status = self._presence.get(told.target)
         if done := self._finishing.on_update(told, status.catalogue if status else ()):
             self._say((told.target,), done, "info")
@@ -445,6 +451,7 @@ class ChatInterface(Node):
 
     def _on_decision(self, decision: PlanDecision) -> None:
         self._offered.on_decision(decision)
+        self._missions.on_decision(decision)
 
     def _on_emergency(self, command: StopCommand) -> None:
         """The stop button: what was asked for before it is dropped, as if it had been said."""

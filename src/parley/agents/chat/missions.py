@@ -19,8 +19,8 @@ from parley.gate.cards import labels_of, lines_of
 from parley.gate.orders import Heard, admit
 from parley.latest import Latest
 from parley.messages import topics
-from parley.messages.chat import ChatAction, ChatFeedback, ChatInput
-from parley.messages.status import PlanRuling
+from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
+from parley.messages.status import PlanDecision, PlanRuling, PlanUpdate
 from parley.sentences import Sentence, sentence, together
 
 __all__ = ["Missions"]
@@ -54,6 +54,49 @@ class Missions:
         self._known, self._presence, self._engine = known, presence, engine
         self._mates: Latest[str, frozenset[str]] = Latest()
         """By robot who else was asked about in the same breath."""
+        self._teams: Latest[str, tuple[str, ...]] = Latest()
+        """By robot the team whose work it has a part of."""
+        self._relieves: Latest[str, ChatAction] = Latest()
+        """By robot what is given up once its yes is there."""
+        self._told_of: Latest[tuple[str, str], bool] = Latest()
+        """Which robots' parts were offered already, and in which graph."""
+
+    def on_plan(self, update: PlanUpdate) -> None:
+        """A robot's plan changed: where it stands, somebody else of the team may take its part over."""
+        if update.state in ("held", "paused"):
+            self._offer(update.target, update.graph_name)
+        elif update.state == "idle":
+            self._teams.pop(update.target, None)
+
+    def on_presence(self, robot: str, joined: bool) -> None:
+        """A robot came or left."""
+        if not joined:
+            plan = self._known.plans.get(robot)
+            self._offer(robot, f"gone from {plan.graph_name if plan is not None else ''}")
+
+    def _offer(self, robot: str, about: str) -> None:
+        team = self._teams.get(robot)
+        if team is not None and (robot, about) not in self._told_of:
+            self._told_of[robot, about] = True
+            self._node.spawn(self._offer_part(robot, team), name=f"part of {robot}")
+
+    async def _offer_part(self, robot: str, team: Sequence[str]) -> None:
+        """Ask whether another robot shall take over what a robot leaves undone; nothing is done by itself."""
+        try:
+            found = await self._talk.stand_in(robot, team)
+        except LanguageError as error:
+            self._node.log.warning("no part offered", robot=robot, error=repr(error))
+            return
+        if found is None:
+            return
+        other, reason = found
+        words = f"Let {other} take over from {robot}"
+        text = sentence("{other} could do what is left of {robot}’s part ({why}). Say “{words}” if it shall.",
+                        other=other, robot=robot, why=reason, words=words)  # fmt: skip
+        feedback = ChatFeedback(
+            message=self._node.spoken(text), targets=(robot, other), type="info", choices=(words,)
+        )
+        self._node.publish(topics.CHAT_FEEDBACK, feedback)
 
     def mates(self, robot: str) -> frozenset[str]:
         """Whose parts a yes or a no to this robot is meant for, too, if nothing else was said since; once."""
@@ -101,6 +144,10 @@ class Missions:
                 continue
             for ruling in await self._answering.submit(order, said) or ():
                 rulings[ruling.target] = ruling
+        self._relieve(said, mission, rulings)
+        team = self._presence.names() if any(share.why for share in mission.shares) else ()
+        for share in mission.shares if team else ():
+            self._teams[share.robot] = team
         told: list[Sentence | str] = [self._told(share, rulings.get(share.robot)) for share in mission.shares]
         asked = frozenset(name for name, ruling in rulings.items() if ruling.outcome == "asked")
         for name in asked:
@@ -110,6 +157,24 @@ class Missions:
         for name in robots:
             self._known.note(name, said.message, reply)
         self._say(robots, reply, said)
+
+    def _relieve(self, said: ChatInput, mission: Mission, rulings: Mapping[str, PlanRuling]) -> None:
+        """Give up what others take over: now, or once their yes is there."""
+        outcomes = {ruling.outcome for ruling in rulings.values()}
+        for name in mission.relieved if outcomes and "refused" not in outcomes else ():
+            order = ChatAction(
+                system_cmd=(SystemCommand(command="clear"),), targets=(name,), by=said.who, words=said.message
+            )
+            if outcomes == {"done"}:
+                self._node.publish(topics.CHAT_ACTION, order)
+            else:
+                self._relieves[mission.shares[0].robot] = order
+
+    def on_decision(self, decision: PlanDecision) -> None:
+        """Somebody decided about a robot's steps."""
+        order = self._relieves.pop(decision.target, None)
+        if order is not None and decision.decision == "approve":
+            self._node.publish(topics.CHAT_ACTION, order)
 
     def _orders(self, target: str, said: ChatInput, mission: Mission) -> list[ChatAction] | None:
         """The parts as orders on the person's account; None if some robot could not carry its part out."""

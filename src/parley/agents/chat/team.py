@@ -18,7 +18,7 @@ from parley.messages.chat import ActionCall, ChatAction, ChatInput
 from parley.messages.status import ActorStatus, PlanProposal
 from parley.sentences import Sentence, listed, sentence, together
 from parley.team.outlook import Outlook, Survey, Task
-from parley.team.sharing import alike, place_of, shared, tasks_of, why
+from parley.team.sharing import alike, left_of, place_of, shared, tasks_of, why
 from parley.world.geometry import Pose2D
 
 __all__ = ["Mission", "Share", "TeamTalk"]
@@ -50,6 +50,8 @@ class Mission:
     choices: tuple[str, ...] = ()
     dropped: Mapping[str, str] = field(default_factory=dict)
     """By robot: its proposal in whose place this comes."""
+    relieved: tuple[str, ...] = ()
+    """Robots whose plans are given up, as others take them over."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +89,7 @@ class TeamTalk:
         """How words spread work over robots; None if they do not."""
         if self._survey is None or calls_to_stop(message):
             return None
-        return team_wish(message, self._presence.names())
+        return team_wish(message, self._presence.ever())
 
     async def mission(
         self, wish: TeamWish | None, target: str, said: ChatInput, team: Sequence[str]
@@ -174,6 +176,34 @@ class TeamTalk:
         asked = situation.dialogue.asked
         return (asked.words if asked is not None and not situation.queue else ""), ""
 
+    def left(self, robot: str) -> list[Task]:
+        """What a robot still has to do, each task from its beginning."""
+        plan = self._known.plans.get(robot)
+        return left_of(plan.steps, self._known.catalogue(robot)) if plan is not None else []
+
+    async def stand_in(self, robot: str, team: Sequence[str]) -> tuple[str, Sentence] | None:
+        """Who of a team could best do what is left of a robot's plan, and why."""
+        tasks = self.left(robot)
+        members = {
+            name: status
+            for name in team
+            if name != robot
+            and (status := self._presence.get(name)) is not None
+            and status.state != "stopped" and status.pose and not self.stands(name)
+            and can_do(status, tasks)
+        }  # fmt: skip
+        if not tasks or not members:
+            return None
+        whole = tuple(call for task in tasks for call in task)
+        outlooks = await self.outlooks(members, [whole], {})
+        able = {name: [True] for name in outlooks}
+        batteries = {name: members[name].battery for name in outlooks}
+        found = shared([whole], outlooks, able, batteries) if outlooks else None
+        if not found:
+            return None
+        name = next(iter(found))
+        return name, why(name, whole, 0, outlooks, able, batteries)
+
     def is_busy(self, robot: str) -> bool:
         """Whether a robot has something left to do."""
         plan = self._known.plans.get(robot)
@@ -182,6 +212,12 @@ class TeamTalk:
     def stands(self, robot: str) -> bool:
         """Whether a robot waits for a person before it goes on with anything."""
         return self._known.state(robot) in ("held", "paused")
+
+
+def can_do(status: ActorStatus, tasks: Sequence[Task]) -> bool:
+    """Whether a robot has all the actions."""
+    known = {info.name for info in status.catalogue}
+    return all(call.name in known for task in tasks for call in task)
 
 
 class _Work:
@@ -224,6 +260,8 @@ class _Work:
         """Who does what of an order."""
         before: tuple[str, ...] = ()
         for part in wish.parts:
+            if part.of:
+                return self._taken_over(part)
             words, stops = await self._words(part, target)
             if stops is not None:
                 return stops
@@ -242,6 +280,22 @@ class _Work:
                 self._shares[begun:] = [replace(share, after=before) for share in new]
             before = tuple(share.robot for share in new)
         return Mission(tuple(self._shares), together(*self._notes), dropped=self._dropped)
+
+    def _taken_over(self, part: Part) -> Mission:
+        """One robot does what is left of another one's plan."""
+        status = self._members.get(part.robot)
+        tasks = self._team.left(part.of)
+        if status is None:
+            text = sentence("{robot} is not ready, so nothing of that has begun.", robot=part.robot)
+        elif not tasks:
+            text = sentence("{robot} has nothing left to do.", robot=part.of)
+        elif not can_do(status, tasks):
+            text = sentence("{robot} cannot do that.", robot=part.robot)
+        else:
+            calls = tuple(call for task in tasks for call in task)
+            text = sentence("{robot} gives up what is left of its plan.", robot=part.of)
+            return Mission((Share(part.robot, calls),), text, relieved=(part.of,))
+        return Mission(text=text)
 
     async def _words(self, part: Part, target: str) -> tuple[str, Mission | None]:
         """The words of a part, with what "that" means."""

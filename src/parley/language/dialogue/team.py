@@ -35,6 +35,8 @@ class Part:
     """For `named`."""
     after: bool = False
     """Whether it waits until the part before it is done."""
+    of: str = ""
+    """Whose work it is that is taken over."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,6 +167,8 @@ class _Words:
 
     def parts(self, text: str, *, asks: bool) -> TeamWish | None:
         """Who is to do what, one part after the other as it was said."""
+        if (taken := self._taken_over(text)) is not None:
+            return taken
         if found := self._match(rf"{self._of('handing')} (?P<robot>{self._names}) (?P<order>.+)", text):
             own = self._part("named", found["robot"], found["order"], after=False, known=())
             return TeamWish("parts", (own,)) if own is not None else None
@@ -184,6 +188,15 @@ class _Words:
         if not made or (alone and only & {"named", "rest"}) or (asks and "named" in only):
             return None
         return TeamWish("parts", tuple(made))
+
+    def _taken_over(self, text: str) -> TeamWish | None:
+        """That one robot does what is left of another one's work."""
+        who = rf"(?:{self._of('handing')} )?(?P<robot>{self._names}),?(?: {self._of('modal')})?"
+        found = self._match(rf"{who} {self._of('takeover')}", text)
+        if found is None or found["robot"].lower() == found["of"].lower():
+            return None
+        robot, of = self._robots[found["robot"].lower()], self._robots[found["of"].lower()]
+        return TeamWish("parts", (Part("named", "", robot, of=of),))
 
     def _pieces(self, text: str) -> list[tuple[Who, str, str, bool]]:
         """The parts as said: who, the robot's name, the words, whether it comes after the one before."""
