@@ -113,6 +113,8 @@ class TeamTalk:
             for name in team or self._presence.names()
             if (status := self._presence.get(name)) is not None and status.state != "stopped" and status.pose
         }
+        if wish.count and wish.count != len(team or self._presence.names()):
+            return Mission(text=sentence("Which of us do you mean? Please call us by our names."))
         work = _Work(self, said, members, plain=plain)
         if wish.kind == "nearest":
             return await work.nearest(wish.about)

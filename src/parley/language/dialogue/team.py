@@ -8,14 +8,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Final, Literal
 
 from parley.language.builtin.lexicon import lemmas, lexicon
 from parley.language.builtin.tokens import tokenize
+from parley.language.control import control_of
 from parley.language.dialogue.questions import plain, question_of
 from parley.language.lexicon import load_data
+from parley.language.stop_words import calls_to_stop
 
 __all__ = ["Part", "TeamWish", "is_in_turn", "is_of_several", "team_wish"]
 
@@ -52,6 +54,8 @@ class TeamWish:
     """For `about`."""
     one_each: bool = False
     """For `share`: nobody takes more than one."""
+    count: int = 0
+    """How many robots are spoken of ("you two"); 0: that is not said."""
     bare: bool = False
     """For `share`: only things are named, not what is to be done there."""
 
@@ -84,7 +88,11 @@ def team_wish(message: str, robots: Sequence[str]) -> TeamWish | None:
     words = _Words(tuple(robots))
     asks = message.rstrip().endswith("?")
     text = re.sub(r"\s+", " ", message.replace("’", "'")).strip(" .!?")
-    return words.about(text) or words.share(words.begun(text)) or words.parts(words.begun(text), asks=asks)
+    bare = words.begun(text)
+    wish = words.about(text) or words.share(bare) or words.parts(bare, asks=asks)
+    if wish is None or any(calls_to_stop(part.order) or control_of(part.order) for part in wish.parts):
+        return None  # stopping has its own way
+    return replace(wish, count=words.count(text))
 
 
 @cache
@@ -116,6 +124,12 @@ class _Words:
         while found := re.match(rf"{self._of('lead')}(?:\s+|(?<=[ ,]))", text, re.IGNORECASE):
             text = text[found.end() :]
         return text
+
+    def count(self, text: str) -> int:
+        """How many robots a message speaks of."""
+        told = "|".join(self._of(name) for name in ("all", "each", "one", "between"))
+        said = " ".join(found[0] for found in re.finditer(rf"\b(?:{told})\b", text, re.IGNORECASE)).lower()
+        return next((number for word, number in _NUMBERS.items() if word in said.split()), 0)
 
     # -- questions -------------------------------------------------------------------------------------
 
@@ -159,7 +173,8 @@ class _Words:
             return _shared(found["order"])
         if found := self._match(r"(?P<order>.+?),? (?:one each|one apiece|one for each of you)", text):
             return TeamWish("share", (Part("all", found["order"]),), one_each=True)
-        if found := self._match(r"(?P<verb>\w+(?: \w+){0,2}) one (?:of the )?(?P<what>.+?) each", text):
+        found = self._match(r"(?P<verb>\w+(?: \w+)?) one (?:of the )?(?P<what>\w+(?: \w+){0,2}) each", text)
+        if found and (found["verb"].split()[0].lower(),) in lexicon().verbs:
             return TeamWish("share", (Part("all", f"{found['verb']} every {found['what']}"),), one_each=True)
         return None
 
@@ -175,6 +190,8 @@ class _Words:
         if found := self._match(rf"(?P<robot>{self._names}) {self._of('modal')} {self._of('last')}", text):
             return TeamWish("parts", (Part("named", "", self._robots[found["robot"].lower()]),))
         if found := self._match(rf"(?P<order>.+?),? (?P<all>{self._of('all')}|{self._of('each')})", text):
+            if found["order"].lower().endswith((*_INSIDE, " for", " than", " as", " by")):
+                return None  # "say hello to everybody"
             text = f"{found['all']} {found['order']}"
         pieces = self._pieces(text)
         made: list[Part] = []
@@ -252,6 +269,7 @@ class _Words:
         return Part(who, order, name, after) if acts and " " in order else None
 
 
+_NUMBERS: Final = {"both": 2, "two": 2, "three": 3, "four": 4}
 _SECOND: Final = {"is": "are", "'s": " are", "has": "have", "does": "do", "was": "were"}
 _INSIDE: Final = (
     " the", " of", " to", " at", " with", " by", " near", " for", " from", " in", " on",
