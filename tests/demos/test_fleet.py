@@ -98,6 +98,16 @@ async def test_one_goes_the_others_wait_and_robots_are_asked_about() -> None:
         assert goals(home)["Spot"] == ["pump"]
 
 
+async def test_whoever_hears_that_all_shall_stop_all_do() -> None:
+    async with hall() as home:
+        await home.say("everybody back to the dock", "Spot")
+        for robot in ROBOTS:
+            await home.state("running", robot)
+        await home.say("All robots stop now", "Spot")
+        for robot in ROBOTS:
+            await home.state("paused", robot)
+
+
 async def test_who_follows_begins_when_the_other_is_there() -> None:
     async with hall() as home:
         await home.say("Leo goes to Area C, Spot follows when it is there", "TIAGo")

@@ -19,7 +19,7 @@ from parley.language.dialogue.questions import plain, question_of
 from parley.language.lexicon import load_data
 from parley.language.stop_words import calls_to_stop
 
-__all__ = ["Part", "TeamWish", "is_in_turn", "is_of_several", "team_wish"]
+__all__ = ["Part", "TeamWish", "is_in_turn", "is_of_several", "is_to_all", "team_wish"]
 
 
 Who = Literal["one", "rest", "all", "each", "named"]
@@ -76,6 +76,14 @@ def is_in_turn(order: str) -> bool:
     return _IN_TURN.search(order) is not None
 
 
+def is_to_all(message: str) -> bool:
+    """Whether a message calls all robots, before or behind what it says."""
+    words = _Words(())
+    called = rf"(?:{words.of('all')}|{words.of('each')})"
+    text = words.begun(re.sub(r"[^\w']+", " ", message.replace("’", "'")).strip())
+    return re.search(rf"^{called}\b|\b{called}$", text, re.IGNORECASE) is not None
+
+
 def team_wish(message: str, robots: Sequence[str]) -> TeamWish | None:
     """How a message is meant for a team; None if it says nothing of one.
 
@@ -106,10 +114,10 @@ class _Words:
     def __init__(self, robots: tuple[str, ...]) -> None:
         self._robots = {name.lower(): name for name in robots}
 
-    def _of(self, name: str) -> str:
+    def of(self, name: str) -> str:
         """A list as one pattern."""
         filled = "|".join(sorted(_data()[name], key=len, reverse=True))
-        filled = re.sub(r"(?<!\?P)<(\w+)>", lambda found: self._of(found[1]), filled)
+        filled = re.sub(r"(?<!\?P)<(\w+)>", lambda found: self.of(found[1]), filled)
         return f"(?:{filled.replace('{robot}', self._names)})"
 
     @property
@@ -121,13 +129,13 @@ class _Words:
 
     def begun(self, text: str) -> str:
         """Without what only opens a sentence."""
-        while found := re.match(rf"{self._of('lead')}(?:\s+|(?<=[ ,]))", text, re.IGNORECASE):
+        while found := re.match(rf"{self.of('lead')}(?:\s+|(?<=[ ,]))", text, re.IGNORECASE):
             text = text[found.end() :]
         return text
 
     def count(self, text: str) -> int:
         """How many robots a message speaks of."""
-        told = "|".join(self._of(name) for name in ("all", "each", "one", "between"))
+        told = "|".join(self.of(name) for name in ("all", "each", "one", "between"))
         said = " ".join(found[0] for found in re.finditer(rf"\b(?:{told})\b", text, re.IGNORECASE)).lower()
         return next((number for word, number in _NUMBERS.items() if word in said.split()), 0)
 
@@ -155,7 +163,7 @@ class _Words:
 
     def share(self, text: str) -> TeamWish | None:
         """Work that all do together, each a part."""
-        between, split, that = self._of("between"), self._of("split"), self._of("that")
+        between, split, that = self.of("between"), self.of("split"), self.of("that")
         if self._match(rf"{split} {that}(?: up)?(?: {between})?", text):
             return _shared("")
         if found := self._match(rf"{split} (?P<what>.+?)(?: up)? {between}(?:,? and (?P<order>.+))?", text):
@@ -184,12 +192,12 @@ class _Words:
         """Who is to do what, one part after the other as it was said."""
         if (taken := self._taken_over(text)) is not None:
             return taken
-        if found := self._match(rf"{self._of('handing')} (?P<robot>{self._names}) (?P<order>.+)", text):
+        if found := self._match(rf"{self.of('handing')} (?P<robot>{self._names}) (?P<order>.+)", text):
             own = self._part("named", found["robot"], found["order"], after=False, known=())
             return TeamWish("parts", (own,)) if own is not None else None
-        if found := self._match(rf"(?P<robot>{self._names}) {self._of('modal')} {self._of('last')}", text):
+        if found := self._match(rf"(?P<robot>{self._names}) {self.of('modal')} {self.of('last')}", text):
             return TeamWish("parts", (Part("named", "", self._robots[found["robot"].lower()]),))
-        if found := self._match(rf"(?P<order>.+?),? (?P<all>{self._of('all')}|{self._of('each')})", text):
+        if found := self._match(rf"(?P<order>.+?),? (?P<all>{self.of('all')}|{self.of('each')})", text):
             if found["order"].lower().endswith((*_INSIDE, " for", " than", " as", " by")):
                 return None  # "say hello to everybody"
             text = f"{found['all']} {found['order']}"
@@ -208,8 +216,8 @@ class _Words:
 
     def _taken_over(self, text: str) -> TeamWish | None:
         """That one robot does what is left of another one's work."""
-        who = rf"(?:{self._of('handing')} )?(?P<robot>{self._names}),?(?: {self._of('modal')})?"
-        found = self._match(rf"{who} {self._of('takeover')}", text)
+        who = rf"(?:{self.of('handing')} )?(?P<robot>{self._names}),?(?: {self.of('modal')})?"
+        found = self._match(rf"{who} {self.of('takeover')}", text)
         if found is None or found["robot"].lower() == found["of"].lower():
             return None
         robot, of = self._robots[found["robot"].lower()], self._robots[found["of"].lower()]
@@ -217,11 +225,11 @@ class _Words:
 
     def _pieces(self, text: str) -> list[tuple[Who, str, str, bool]]:
         """The parts as said: who, the robot's name, the words, whether it comes after the one before."""
-        when = self._of("when")
-        subjects = "|".join(f"(?P<{who}>{self._of(who)})" for who in ("one", "rest", "each", "all"))
+        when = self.of("when")
+        subjects = "|".join(f"(?P<{who}>{self.of(who)})" for who in ("one", "rest", "each", "all"))
         opening = (
-            rf"(?P<gap>^|[,;.]? (?:{self._of('meanwhile')} )?|[,;.] ?)"
-            rf"(?P<then>{self._of('then')},? )?(?P<when>{when},? )?"
+            rf"(?P<gap>^|[,;.]? (?:{self.of('meanwhile')} )?|[,;.] ?)"
+            rf"(?P<then>{self.of('then')},? )?(?P<when>{when},? )?"
             rf"(?:{subjects}|(?P<named>{self._names}))(?=[,:]? \w)"
         )
         found = [
@@ -252,17 +260,17 @@ class _Words:
     ) -> Part | None:
         name = self._robots[robot.lower()] if robot else ""
         order = said.strip(" ,")
-        while found := re.match(rf"{self._of('modal')} ", order, re.IGNORECASE):
+        while found := re.match(rf"{self.of('modal')} ", order, re.IGNORECASE):
             order = order[found.end() :]
-        if self._match(self._of("last"), order):
+        if self._match(self.of("last"), order):
             return Part(who, "", name, after)
         order = _in_base_form(order)
-        if order and re.match(rf"{self._of('homeward')}\b", order, re.IGNORECASE) and " " in order:
+        if order and re.match(rf"{self.of('homeward')}\b", order, re.IGNORECASE) and " " in order:
             order = f"go {order}"
-        if self._match(self._of("following"), order):
+        if self._match(self.of("following"), order):
             order = known[-1].order if known else ""
             return Part(who, order, name, after) if order else None
-        if opens := re.match(self._of("opening"), order, re.IGNORECASE):
+        if opens := re.match(self.of("opening"), order, re.IGNORECASE):
             order = f"go to{order[opens.end() :]}"
         first = order.split(" ")[0].lower()
         acts = (first,) in lexicon().verbs and first not in lexicon().classes["being"]
