@@ -19,7 +19,7 @@ ROBOTS = ("Spot", "TIAGo", "Leo")
 
 
 @asynccontextmanager
-async def hall(variant: str = "", **settings: str) -> AsyncIterator[House]:
+async def hall(variant: str = "", **settings: object) -> AsyncIterator[House]:
     demo = load_demo("fleet")
     system = demo.system(SystemConfig(speed=None).changed(settings), demo.story.variant(variant))
     async with running(system) as home:
@@ -131,6 +131,19 @@ async def test_a_part_that_waits_is_asked_about_when_the_other_or_it_is_stopped(
         assert "told to stop before I began" in home.observer.proposed["TIAGo"].why
         assert set(await home.done("Leo")) == {"finished"}
         assert home.observer.state("TIAGo") == "awaiting_approval"
+
+
+async def test_a_part_that_waits_when_everything_is_shut_down_is_asked_about_afterwards(
+    tmp_path: Path,
+) -> None:
+    async with hall(data_dir=tmp_path) as home:
+        await home.say("Leo goes to the pump, Spot follows when it is there", "TIAGo")
+    async with hall(data_dir=tmp_path) as home:
+        await home.state("awaiting_approval", "Spot")
+        assert [call.name for call in home.observer.proposed["Spot"].steps] == [
+            "GetCoordinates",
+            "NavigateTo",
+        ]
 
 
 async def test_what_a_robot_leaves_undone_is_offered_to_the_best_of_the_others() -> None:

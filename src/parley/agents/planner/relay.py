@@ -29,6 +29,8 @@ class _Waiting:
     calls: Sequence[ActionCall]
     by: Principal | None
     """On whose account they begin."""
+    kept: str
+    """Under which id it is written down."""
     warned: bool = False
 
 
@@ -62,7 +64,8 @@ class Relay:
         """Whether steps have to wait; they begin by themselves then."""
         if not calls or all(self._state(other) == "done" for other in order.after):
             return False
-        self._waiting.append(_Waiting(plan, order, calls, by))
+        kept = self._proposals.keep(plan, order.model_copy(update={"after": (), "by": by}), calls)
+        self._waiting.append(_Waiting(plan, order, calls, by, kept))
         self.look()
         return True
 
@@ -75,7 +78,7 @@ class Relay:
                 gone = ", ".join(self._robot(other) for other, state in states.items() if state == "lost")
                 self._ask(one, sentence("{robot} has not done its part", robot=gone))
             elif all(state == "done" for state in states.values()):
-                self._waiting.remove(one)
+                self._over(one)
                 self._plans.say(
                     one.plan.target, sentence("{robot} has done its part, so I begin.", robot=who), "info"
                 )
@@ -92,10 +95,15 @@ class Relay:
 
     def drop(self, plan: TargetPlan) -> None:
         """A robot's plan is given up, with what waits."""
-        self._waiting = [one for one in self._waiting if one.plan is not plan]
+        for one in [one for one in self._waiting if one.plan is plan]:
+            self._over(one)
+
+    def _over(self, one: _Waiting) -> None:
+        self._waiting.remove(one)
+        self._plans.approvals.forget(one.kept)
 
     def _ask(self, one: _Waiting, why: Sentence) -> None:
-        self._waiting.remove(one)
+        self._over(one)
         order = one.order.model_copy(update={"after": (), "by": one.by})
         proposal = self._proposals.propose(one.plan, order, one.calls, why=why)
         self._plans.say(one.plan.target, together(wish_of(proposal.lines, proposal.why), SHALL_I), "info")
