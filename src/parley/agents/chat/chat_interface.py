@@ -328,7 +328,11 @@ class ChatInterface(Node):
     def _work(
         self, target: str, said: ChatInput, ours: str = "", team: Sequence[str] = ()
     ) -> Callable[[], Awaitable[None]]:
-        halts = dict(self._halts)
+        halts, left = dict(self._halts), [*team[1:]]
+
+        def others() -> None:
+            while left:
+                self._hear(left.pop(0), said, None)
 
         async def understood() -> bool:
             """Whether it was an order to all together."""
@@ -343,14 +347,14 @@ class ChatInterface(Node):
                 heard = said.model_copy(update={"message": order}) if order else said
                 together_done = order != "" and await self._missions.handles(target, heard, halts, team)
                 if order != "" and not together_done:
+                    others()  # they need not wait until this one has answered
                     await self._answering.answer(target, heard, halts)
             self._ask_about_rules_again(target, said)
             return together_done
 
         async def work() -> None:
             if not await understood():
-                for other in team[1:]:
-                    self._hear(other, said, None)
+                others()
 
         return work
 
