@@ -18,7 +18,7 @@ LAYERS: tuple[frozenset[str], ...] = (
     frozenset({"errors", "extras", "logs", "clock", "messages", "config", "files", "latest", "sentences"}),
     frozenset({"transport", "umrf", "memory", "world"}),
     frozenset({"sim"}),
-    frozenset({"gate", "language", "robots", "engine", "actions"}),
+    frozenset({"gate", "language", "robots", "engine", "actions", "team"}),
     frozenset({"agents", "web"}),
     frozenset(
         {

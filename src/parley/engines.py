@@ -6,6 +6,7 @@ Between these and `Nodes` there is nothing but topics and services.
 from __future__ import annotations
 
 import asyncio
+import math
 from collections.abc import Sequence
 from contextlib import AsyncExitStack
 from dataclasses import dataclass
@@ -36,7 +37,9 @@ from parley.transport.base import Transport
 from parley.umrf.action import ActionSpec, RunHandle
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.discovery import ActionFolder, LiveActions, installed_actions
+from parley.world.approach import Spot
 from parley.world.found import FoundThings
+from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject, ObjectMap
 from parley.world.occupancy import NO_MAP, OccupancyMap
 from parley.world.telling import floor_of, told_objects
@@ -50,12 +53,30 @@ class WorldView:
     """What one robot knows about its surroundings."""
 
     engines: Engines
+    robot: str
     occupancy: OccupancyMap
 
     @property
     def objects(self) -> ObjectMap:
         """The objects people may name, with what was found."""
         return self.engines.known
+
+    @property
+    def taken(self) -> tuple[Spot, ...]:
+        """See `parley.actions.context.World.taken`."""
+        others = [robot for name, robot in self.engines.robots.items() if name != self.robot]
+        here = [(robot.pose(), robot.radius_m) for robot in others]
+        return (*((pose.x_m, pose.y_m, radius_m) for pose, radius_m in here), *self._claimed)
+
+    @property
+    def _claimed(self) -> tuple[Spot, ...]:
+        return tuple(spot for name, spot in self.engines.claims.items() if name != self.robot)
+
+    def claim(self, spot: Pose2D) -> bool:
+        """See `parley.actions.context.World.claim`."""
+        own = (spot.x_m, spot.y_m, self.engines.robots[self.robot].radius_m)
+        self.engines.claims[self.robot] = own
+        return all(math.dist(own[:2], other[:2]) > own[2] + other[2] for other in self._claimed)
 
     async def note(self, label: str, place: Footprint) -> MapObject | None:
         """See `parley.actions.context.World.note`."""
@@ -106,6 +127,8 @@ class Engines:
         self.names = tuple(name for name in fleet.names if not only or name in only)
         """The robots."""
         self.robots: dict[str, Robot] = {}
+        self.claims: dict[str, Spot] = {}
+        """Where each robot was going to stand last."""
         self.found = FoundThings()
         """What robots found besides."""
         self.journal: Journal | None = None
@@ -187,7 +210,7 @@ class Engines:
 
     async def _open_robot(self, stack: AsyncExitStack, name: str, journal: Journal) -> None:
         enter, transport, clock = stack.enter_async_context, self._transport, self._fleet.clock
-        view = WorldView(self, self._fleet.occupancy(name))
+        view = WorldView(self, name, self._fleet.occupancy(name))
         rules = RuleBook.unread(clock)
         rules.know(name, self._fleet.facts(name))
         robot = self.robots[name] = self._fleet.robot(name, rules)

@@ -33,7 +33,7 @@ from parley.gate.judge import Judgement, RobotFacts
 from parley.gate.places import Resolver
 from parley.gate.rule_talk import RuleTalk, left_over_rule
 from parley.gate.rules import RuleKeeper
-from parley.gate.ways import judge_with_ways
+from parley.gate.ways import judge_with_ways, with_walls
 from parley.language.base import Language
 from parley.memory.embedder import configured_embedder
 from parley.memory.incidents import IncidentStore
@@ -44,6 +44,7 @@ from parley.messages.chat import ActionCall
 from parley.messages.incident import Incident
 from parley.messages.principal import Principal
 from parley.messages.status import ActionInfo
+from parley.team.outlook import Outlook, Task, survey
 from parley.transport.base import Transport
 from parley.world.geometry import Pose2D
 from parley.world.telling import Surroundings
@@ -194,6 +195,7 @@ class Nodes:
             rules=rules,
             rooms=self.sites.rooms,
             soon=self.sites.soon,
+            survey=self._survey,
         )
         await stack.enter_async_context(self._speaking(chat))
 
@@ -235,7 +237,9 @@ class Nodes:
         """What the rules say about steps; nothing is worked out where nothing could be said."""
         if not (risks or self.rules.has_rules):
             return None
-        known = await self.sites.of(robot)
+        known = await self.sites.known(robot)
+        if known is None:
+            return None
         resolver = Resolver(
             self._language.ground,
             known.objects.places,
@@ -246,4 +250,34 @@ class Nodes:
         steps = await resolver.resolve(calls, catalogue, pose)
         return await judge_with_ways(
             self.rules, robot, steps, known.occupancy, by=by, pose=pose, people=known.objects.people
+        )
+
+    async def _survey(
+        self,
+        robot: str,
+        catalogue: Sequence[ActionInfo],
+        pose: Pose2D,
+        pending: Sequence[ActionCall],
+        tasks: Sequence[Task],
+    ) -> Outlook | None:
+        """What a robot has before it, by ways around what is closed to it; None: it has not told its map."""
+        known = self.sites.by_robot.get(robot)
+        if known is None:
+            return None
+        resolver = Resolver(
+            self._language.ground,
+            known.objects.places,
+            known.occupancy,
+            radius_m=known.radius_m,
+            clock=self._clock,
+        )
+        zones = [self.rules.shape(rule) for rule in self.rules.closed_to(robot, None)]
+        return await survey(
+            lambda calls, start: resolver.resolve(calls, catalogue, start),
+            with_walls(known.occupancy, zones, (pose.x_m, pose.y_m), known.radius_m),
+            pose,
+            pending,
+            tasks,
+            radius_m=known.radius_m,
+            speed_mps=known.max_speed_mps,
         )

@@ -19,7 +19,9 @@ from parley.robots.simulated import SimulatedRobot
 from parley.sim.floor_plan import survey
 from parley.sim.simulator import Simulator
 from parley.umrf.motion import Motion
+from parley.world.approach import Spot
 from parley.world.found import FoundThings
+from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject, ObjectMap
 from parley.world.occupancy import OccupancyMap
 from parley.world.whereabouts import Footprint
@@ -93,6 +95,12 @@ class View:
     base: ObjectMap
     occupancy: OccupancyMap
     found: FoundThings = field(default_factory=FoundThings)
+    taken: tuple[Spot, ...] = ()
+    claimed: list[Pose2D] = field(default_factory=list)
+
+    def claim(self, spot: Pose2D) -> bool:
+        self.claimed.append(spot)
+        return True
 
     @property
     def objects(self) -> ObjectMap:

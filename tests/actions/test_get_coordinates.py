@@ -42,6 +42,15 @@ async def test_robot_can_really_stand_there() -> None:
         assert here.robot.pose().distance_to(found.pose.planar()) < 0.2
 
 
+async def test_where_another_robot_stands_or_goes_to_is_left_to_it() -> None:
+    async with room(language=BuiltinLanguage()) as here:
+        best = (await get_coordinates(here.context, "green crate")).pose.planar()
+        here.view.taken = ((best.x_m, best.y_m, 0.2),)
+        other = (await get_coordinates(here.context, "green crate")).pose.planar()
+        assert best.distance_to(other) > 0.2 + here.robot.radius_m
+        assert here.view.claimed == [best, other]  # and the others learn of it
+
+
 async def test_equals_are_named_and_told_to_the_recovery() -> None:
     async with room() as here:
         here.script.will("ground", Grounding("ambiguous", CHAIRS))

@@ -60,6 +60,15 @@ def test_a_yes_in_words_counts_once_the_robot_has_asked_about_just_that() -> Non
     assert not waiting.is_asked("Ada")
 
 
+def test_a_question_may_be_heard_before_what_it_is_about() -> None:
+    waiting = offered()
+    waiting.on_said(ChatFeedback(message="Go to the box. Shall I?", targets=("Ada",)), "Shall I?")
+    waiting.on_proposal(PlanProposal(id="p1", target="Ada"))
+    assert waiting.is_asked("Ada")
+    waiting.on_proposal(PlanProposal(id="p2", target="Ada"))
+    assert not waiting.is_asked("Ada")
+
+
 def test_a_yes_does_not_go_to_what_was_replaced() -> None:
     waiting = offered("p1", "p2")
     waiting.on_update(PlanUpdate(target="Ada", state="awaiting_approval", waits=("p1",)))

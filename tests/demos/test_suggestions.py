@@ -11,6 +11,7 @@ from parley.demos.catalogue import DEMOS, load_demo
 from parley.language.base import Situation
 from parley.language.builtin.decision import Answer, Ask, Decision, Do
 from parley.language.builtin.engine import BuiltinLanguage
+from parley.language.dialogue.team import team_wish
 from parley.umrf.catalogue import info_of
 
 ENGINE = BuiltinLanguage()
@@ -27,7 +28,10 @@ def decided(demo: str, message: str) -> Decision:
 
 @pytest.mark.parametrize(("demo", "example"), [(n, text) for n in DEMOS for text in load_demo(n).examples])
 def test_what_a_demonstration_suggests_is_done_or_answered(demo: str, example: str) -> None:
-    assert isinstance(decided(demo, example), Answer if example.startswith("What") else Do)
+    wish = team_wish(example, ("A", "B"))
+    orders = [part.order for part in wish.parts] or [f"go to {wish.about}"] if wish else [example]
+    for order in orders:
+        assert isinstance(decided(demo, order), Answer if order.startswith("What") else Do)
 
 
 @pytest.mark.parametrize("demo", DEMOS)

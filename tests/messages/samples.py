@@ -189,6 +189,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "success": True,
         "choices": ["yes"],
         "sources": ["box"],
+        "after": ["77aa"],
     },
     display.RawImage: {
         "data": [1, 2, 3],
@@ -365,6 +366,8 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "by": KIM,
         "why": "It is far.",
         "words": "go there",
+        "order": "9c1e",
+        "after": ["77aa"],
     },
     status.PlanDecision: {
         "id": "1",

@@ -14,6 +14,8 @@ from parley.memory.pictures import pixels_to_jpeg
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage, Robot
 from parley.umrf.action import RunHandle
+from parley.world.approach import Spot
+from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject, ObjectMap
 from parley.world.occupancy import OccupancyMap
 from parley.world.whereabouts import NEAR_M, Footprint, called
@@ -68,6 +70,15 @@ class World(Protocol):
     @property
     def occupancy(self) -> OccupancyMap:
         """Where there is free floor."""
+        ...
+
+    @property
+    def taken(self) -> Sequence[Spot]:
+        """Where other robots stand, or are going to."""
+        ...
+
+    def claim(self, spot: Pose2D) -> bool:
+        """Let other robots know where this one is going to stand; False if one of them is going there."""
         ...
 
     async def forget(self, thing: MapObject) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from dataclasses import dataclass
+from typing import Final
 
 from parley.actions.context import ActionContext
 from parley.actions.pose import Pose
@@ -11,9 +12,12 @@ from parley.errors import ActionFailure, FailureCode, LanguageError
 from parley.language.base import Grounding
 from parley.umrf.action import action
 from parley.world.approach import approach_pose
+from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
 __all__ = ["Coordinates", "get_coordinates"]
+
+_TRIES: Final = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,10 +50,7 @@ async def get_coordinates(ctx: ActionContext, target: str) -> Coordinates:
     except LanguageError as error:
         raise ActionFailure(FailureCode.UNAVAILABLE, "I cannot look up places just now.") from error
     thing = _single(target, grounding)
-    with ctx.clock.hold():
-        spot = await asyncio.to_thread(
-            approach_pose, ctx.world.occupancy, thing, here, radius_m=ctx.robot.radius_m
-        )
+    spot = await _spot(ctx, thing, here)
     if spot is None:
         side = "in" if thing.area else "in front of"
         raise ActionFailure(
@@ -58,6 +59,24 @@ async def get_coordinates(ctx: ActionContext, target: str) -> Coordinates:
             {"target": target, "object": thing.id},
         )
     return Coordinates(Pose.of(spot))
+
+
+async def _spot(ctx: ActionContext, thing: MapObject, here: Pose2D) -> Pose2D | None:
+    """A free spot, kept for this robot; another one if somebody took it while it was looked for."""
+    spot = None
+    for _ in range(_TRIES):
+        with ctx.clock.hold():
+            spot = await asyncio.to_thread(
+                approach_pose,
+                ctx.world.occupancy,
+                thing,
+                here,
+                radius_m=ctx.robot.radius_m,
+                taken=ctx.world.taken,
+            )
+        if spot is None or ctx.world.claim(spot):
+            break
+    return spot
 
 
 def _single(target: str, grounding: Grounding) -> MapObject:

@@ -64,6 +64,10 @@ class Sites(Node):
             await self._changed.wait()
         return self.by_robot[robot]
 
+    async def known(self, robot: str) -> Surroundings | None:
+        """The same; None of a robot whose engine is not ours and tells nothing."""
+        return await self.of(robot) if robot in self._asked else None
+
     async def soon(self, robot: str) -> None:
         """Wait a moment for a robot that has just come, and not for one that never tells."""
         if robot in self._asked and robot not in self.by_robot:

@@ -24,7 +24,12 @@ from parley.world.occupancy import OccupancyMap
 
 __all__ = ["DEMOS", "Demo", "demo_folder", "load_demo"]
 
-DEMOS: Final = {"nursing-home": "nursing_home", "parking": "parking", "warehouse": "warehouse"}
+DEMOS: Final = {
+    "nursing-home": "nursing_home",
+    "parking": "parking",
+    "warehouse": "warehouse",
+    "fleet": "fleet",
+}
 """Name on the command line -> folder."""
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, ClassVar
 
 from parley.agents.base import Node
@@ -77,12 +77,22 @@ class Observer(Node):
         await self.subscribe(topics.INCIDENT, Incident, self._on_incident)
         await self.subscribe_raw(topics.PLAN, self._on_plan)
 
-    def say(self, text: str, robot: str, *, answer: bool = False) -> None:
-        """Speak as the operator; `answer` marks it as the answer to the robot's open question."""
+    def say(self, text: str, robot: str, *, answer: bool = False, also: Sequence[str] = ()) -> str:
+        """Speak as the operator; `answer` marks it as the answer to the robot's open question.
+
+        Args:
+            text: The words.
+            robot: Whom they are for.
+            answer: See above.
+            also: Who else is spoken to in the same message.
+
+        Returns:
+            The id of the message.
+        """
         question = self.questions.newest(robot) if answer else None
         said = ChatInput(
             message=text,
-            targets=(robot,),
+            targets=(robot, *also),
             type="response" if answer else "request",
             reply_to=question.id if question else "",
             id=f"observer-{id(self)}-{self._count}",
@@ -91,6 +101,7 @@ class Observer(Node):
         self.questions.on_input(said)
         self._write("operator", robot=robot, text=text, type=said.type)
         self.publish(topics.CHAT_INPUT, said)
+        return said.id
 
     async def until(self, condition: Callable[[], bool], *, timeout_s: float = 60.0) -> None:
         """Wait until `condition` holds; looked at whenever something happened.

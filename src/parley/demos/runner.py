@@ -127,7 +127,8 @@ class _Player:
             self._observer = await self._stack.enter_async_context(
                 Observer(system.transport, system.clock, self._emit)
             )
-            await self._observer.until(lambda: self._robot in self._observer.robots, timeout_s=PATIENCE_S)
+            all_there = {*self._system.robot_names}
+            await self._observer.until(lambda: all_there <= self._observer.robots, timeout_s=PATIENCE_S)
         except BaseException:
             await self._stack.aclose()
             raise
@@ -172,8 +173,10 @@ class _Player:
 
     async def _say(self, step: StoryStep, text: str) -> None:
         before_s = time.perf_counter()
-        self._observer.say(text, self._robot)
-        reply = await self._next_said(lambda said: said.type in ("response", "error"))
+        ours = self._observer.say(text, self._robot, also=step.also)
+        reply = await self._next_said(
+            lambda said: said.type in ("response", "error") and said.reply_to in ("", ours)
+        )
         assert reply is not None
         self.latencies_s.append(time.perf_counter() - before_s)
         missing = [part for part in step.reply if not _is_in(part, reply.message)]

@@ -59,6 +59,8 @@ class StoryStep(_Entry):
     """The robot it is about; empty: the story's."""
     say: str | None = None
     """The operator says this ..."""
+    also: tuple[str, ...] = ()
+    """... to these robots as well, in one message ..."""
     reply: tuple[str, ...] = ()
     """... and each of these texts (any case, ``|`` between wordings) is in the reply,"""
     remembered: str = ""

@@ -257,6 +257,8 @@ class ChatAction(Payload):
     it did not understand."""
     replaces: str = ""
     """Ours: the proposal in whose place these steps are proposed."""
+    after: tuple[str, ...] = ()
+    """Ours: orders, by `id`, whose steps other robots must have done before these begin."""
     alarm: bool = False
     """Ours: a person speaks of danger, so everybody who is connected is told."""
     left_open: LeftOpen = LeftOpen()
@@ -316,6 +318,8 @@ class ChatAction(Payload):
             wire["offer"] = [call.model_dump() for call in self.offer]
         if self.afterwards:
             wire["afterwards"] = [call.model_dump() for call in self.afterwards]
+        if self.after:
+            wire["after"] = list(self.after)
         if self.others:
             wire["others"] = [other.to_wire() for other in self.others]
         for name, who in (("by", self.by), ("behalf", self.behalf)):

@@ -203,6 +203,10 @@ class PlanProposal(Payload):
     """Why a yes is needed though the policy would not ask, in plain words; empty: the policy asks."""
     words: str = ""
     """What the person said who wants it."""
+    order: str = ""
+    """`id` of the order it comes from."""
+    after: tuple[str, ...] = ()
+    """Orders whose steps other robots must have done before these begin."""
 
     @model_validator(mode="before")
     @classmethod

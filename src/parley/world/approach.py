@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,13 +15,17 @@ from parley.world.object_map import MapArea, MapObject
 from parley.world.occupancy import NO_MAP, OccupancyMap
 from parley.world.planning import clearance_m, passable, travel_costs
 
-__all__ = ["approach_pose"]
+__all__ = ["Spot", "approach_pose"]
 
 Floats = NDArray[np.float64]
+Spot = tuple[float, float, float]
+"""A robot's place: x, y and its radius, in metres."""
 
 _FARTHER_M = 0.7
 """How much further away than wished is still near."""
 _MARGIN_M = 0.05
+_BETWEEN_M = 0.25
+"""What robots leave between them where they stand."""
 _FRONT_HALF_ANGLE_RAD = math.radians(50)
 # What one metre off the wished standoff, one metre off the middle of the front, and one metre of way weigh
 # against each other: the right spot matters, a shorter way decides between equally good ones.
@@ -44,6 +49,7 @@ def approach_pose(
     *,
     radius_m: float,
     standoff_m: float = 0.45,
+    taken: Sequence[Spot] = (),
 ) -> Pose2D | None:
     """A pose near an object, facing it, that the robot can drive to.
 
@@ -53,6 +59,7 @@ def approach_pose(
         start: Where the robot is; of equally good spots it gets the one with the shorter way.
         radius_m: Of the robot.
         standoff_m: Wished distance between the robot's edge and the object's bounding box.
+        taken: Where others stand or are going to; as long as there is another spot, they are kept clear of.
 
     Returns:
         The pose, always the same for the same arguments; None if no such spot can be reached.
@@ -70,6 +77,7 @@ def approach_pose(
     near = _near(occupancy, target, allowed, 0.0 if target.area else wished_m + _FARTHER_M)
     if len(near.cells) == 0:
         return None
+    near = _clear_of(taken, near, radius_m)
     way, _ = grids.MCP_Geometric(travel_costs(allowed, clearance, radius_m)).find_costs([(row, column)])
     if target.area is not None:
         return _inside(near, target.area, target, start, np.isfinite(way[tuple(near.cells.T)]))
@@ -85,6 +93,16 @@ def approach_pose(
         if _in_view(occupancy, spot, target):
             return Pose2D(spot.x_m, spot.y_m, spot.bearing_to(target.x_m, target.y_m))
     return None
+
+
+def _clear_of(taken: Sequence[Spot], near: _Candidates, radius_m: float) -> _Candidates:
+    """Those where nobody else stands; all if there are none."""
+    clear = np.ones(len(near.x_m), dtype=np.bool_)
+    for x_m, y_m, other_m in taken:
+        clear &= np.hypot(near.x_m - x_m, near.y_m - y_m) > radius_m + other_m + _BETWEEN_M
+    if not clear.any():
+        return near
+    return _Candidates(near.cells[clear], near.x_m[clear], near.y_m[clear], near.gap_m[clear])
 
 
 def _inside(

@@ -6,13 +6,17 @@ from parley.extras import needs
 
 try:
     from scipy.ndimage import binary_dilation, distance_transform_edt
+    from scipy.optimize import linear_sum_assignment
     from skimage.graph import MCP_Geometric, route_through_array
 except ModuleNotFoundError as error:
     _missing: ModuleNotFoundError | None = error
 else:
     _missing = None
 
-__all__ = ["MCP_Geometric", "binary_dilation", "distance_transform_edt", "require", "route_through_array"]
+__all__ = [
+    "MCP_Geometric", "binary_dilation", "distance_transform_edt", "linear_sum_assignment", "require",
+    "route_through_array",
+]  # fmt: skip
 
 
 def require() -> None:

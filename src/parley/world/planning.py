@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +14,10 @@ from parley.world import grids
 from parley.world.geometry import Pose2D
 from parley.world.occupancy import FREE, OCCUPIED, OccupancyMap
 
-__all__ = ["NO_OBSTACLES", "NoPathError", "Path", "clearance_m", "passable", "plan_path", "travel_costs"]
+__all__ = [
+    "NO_OBSTACLES", "NoPathError", "Path", "clearance_m", "passable", "plan_path", "travel_costs",
+    "way_lengths_m",
+]  # fmt: skip
 
 NO_OBSTACLES: NDArray[np.float64] = np.empty((0, 2))
 """Nothing seen that is not on the map."""
@@ -148,6 +152,27 @@ def plan_path(
     raise NoPathError(
         f"something stands in the way to ({goal.x_m:.2f}, {goal.y_m:.2f}), near ({x:.2f}, {y:.2f})", at=(x, y)
     )
+
+
+def way_lengths_m(
+    occupancy: OccupancyMap, start: Pose2D, goals: Sequence[tuple[float, float]], *, radius_m: float
+) -> list[float]:
+    """How long the ways to several goals are, by one search; infinite where the map has none."""
+    grid = _coarser(occupancy)
+    clearance = clearance_m(grid)
+    allowed = passable(grid, clearance, start, radius_m)
+    here, cells = grid.cell_of(start.x_m, start.y_m), [grid.cell_of(*goal) for goal in goals]
+    inside = [grid.contains(*cell) and bool(allowed[cell]) for cell in cells]
+    if not grid.contains(*here) or not any(inside):
+        return [math.inf] * len(goals)
+    allowed[here] = True  # wherever it stands, it stands there
+    search = grids.MCP_Geometric(travel_costs(allowed, clearance, radius_m))
+    costs, _ = search.find_costs([here], [cell for cell, known in zip(cells, inside, strict=True) if known])
+    found: list[float] = []
+    for cell, known in zip(cells, inside, strict=True):
+        there = known and bool(np.isfinite(costs[cell]))
+        found.append(Path(grid.centers_of(np.array(search.traceback(cell)))).length_m if there else math.inf)
+    return found
 
 
 def _search(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import uuid
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractAsyncContextManager
 from dataclasses import replace
 
 from parley.agents.base import Node
@@ -113,7 +114,7 @@ class Answering:
             self._clock,
         )
         try:
-            async with self._thinking.about(target, lambda: self.still_thinking(target, message), message):
+            async with self.thinking(target, said):
                 situation = await self._known.of(
                     target, own or message, said, sees_pictures=self._language.sees_pictures,
                     proposal=self._offered(target),
@@ -122,31 +123,23 @@ class Answering:
                     situation, on_draft=drafts
                 )
         except (LanguageError, TimeoutError) as error:
-            if isinstance(error, DroppedError):
-                self.say((target,), texts.dropped(message), "response", said.id)
-                return
-            if isinstance(error, TimeoutError) and self._halted_since(halts, target):
-                self.say((target,), texts.left(message), "response", said.id)
-                return
-            self._node.log.warning("not understood", target=target, error=repr(error))
-            plain = error.plain if isinstance(error, LanguageError) else ""
-            self.say((target,), texts.nothing_started(plain), "error", said.id)
+            self.not_understood(target, said, halts, error)
             return
         if understood.offer and not understood.queue:  # the gate asks for a yes: it is not certain
             why = understood.needs_yes or UNSURE_OF_ALL
             understood = understood.model_copy(update={"queue": understood.offer, "needs_yes": why})
         wants = understood.queue or understood.system_cmd or understood.others
-        if wants and self._halted_since(halts, target):
+        if wants and self.halted_since(halts, target):
             self.say((target,), texts.left(message), "response", said.id)
             return
         heard = self._heard(target, said, situation, understood, own=bool(own))
         admitted = admit(bound_to_steps(understood, situation.steps), heard)
-        order = self._trusted(target, admitted.order)
+        order = self.trusted(target, admitted.order)
         if order is None:
             self.say((target,), texts.CANNOT, "error", said.id)
             return
         for other in admitted.others:
-            if not self._halted_since(halts, other.targets[0]):
+            if not self.halted_since(halts, other.targets[0]):
                 self._node.spawn(self._hand_over(other, target, said), name=f"order for {other.targets[0]}")
         order = self._own_share(order, target, said)
         if not order.targets:
@@ -155,22 +148,44 @@ class Answering:
             return
         await self._carry_out(target, said, understood, replace(admitted, order=order), situation)
 
-    def _halted_since(self, halts: Mapping[str, int], target: str) -> bool:
+    def thinking(self, target: str, said: ChatInput) -> AbstractAsyncContextManager[None]:
+        """Around the work of understanding a message; see `Thinking.about`."""
+        return self._thinking.about(target, lambda: self.still_thinking(target, said.message), said.message)
+
+    def not_understood(
+        self, target: str, said: ChatInput, halts: Mapping[str, int], error: LanguageError | TimeoutError
+    ) -> None:
+        """Say that nothing came of a message, and why."""
+        if isinstance(error, DroppedError):
+            self.say((target,), texts.dropped(said.message), "response", said.id)
+            return
+        if isinstance(error, TimeoutError) and self.halted_since(halts, target):
+            self.say((target,), texts.left(said.message), "response", said.id)
+            return
+        self._node.log.warning("not understood", target=target, error=repr(error))
+        plain = error.plain if isinstance(error, LanguageError) else ""
+        self.say((target,), texts.nothing_started(plain), "error", said.id)
+
+    def halted_since(self, halts: Mapping[str, int], target: str) -> bool:
         """Whether a robot was told to stop since `halts` were counted."""
         return halts.get(target, 0) != self._halts(target)
 
     async def _hand_over(self, other: ChatAction, target: str, said: ChatInput) -> None:
         """Hand on what another robot is to do, and let it say if it cannot, or asks first."""
-        order, name = self._trusted(target, other), other.targets[0]
+        order, name = self.trusted(target, other), other.targets[0]
         if order is None or not self._presence.is_there(name):
             self.say((name,), texts.CANNOT if order is None else texts.not_there(name), "error")
             return
         order = order.model_copy(update={"id": uuid.uuid4().hex, "reply_to": said.id})
-        self._rulings.expect(order)
-        self._order(order, said)
-        for ruling in await self._rulings.about(order) or ():
+        for ruling in await self.submit(order, said) or ():
             if ruling.outcome == "asked":
                 self.say((name,), together(wish_of(ruling.lines, ruling.why), SHALL_I), "info")
+
+    async def submit(self, order: ChatAction, said: ChatInput) -> Sequence[PlanRuling] | None:
+        """Hand an order with an id on, and hear what became of it; see `Rulings.about`."""
+        self._rulings.expect(order)
+        self._order(order, said)
+        return await self._rulings.about(order)
 
     async def _carry_out(
         self, target: str, said: ChatInput, understood: ChatAction, admitted: Admitted, situation: Situation
@@ -288,7 +303,7 @@ class Answering:
         control = {command.command for command in order.system_cmd} - {"add_memory", "remove_memory"}
         return held and bool(order.queue) and not control
 
-    def _trusted(self, target: str, understood: ChatAction) -> ChatAction | None:
+    def trusted(self, target: str, understood: ChatAction) -> ChatAction | None:
         """The order with its addressees, if each robot named can carry it out; None if not."""
         named = [self._presence.resolve(name) for name in understood.targets]
         targets = tuple(name for name in named if name is not None) or (target,)

@@ -17,9 +17,11 @@ from parley.agents.chat.finishing import Finishing
 from parley.agents.chat.holds import Holds
 from parley.agents.chat.log_answers import log_answer
 from parley.agents.chat.memories import Confirmations
+from parley.agents.chat.missions import Missions
 from parley.agents.chat.recollections import Recollections
 from parley.agents.chat.situations import Situations
 from parley.agents.chat.teaching import Teaching
+from parley.agents.chat.team import TeamTalk
 from parley.agents.planner.asking import SHALL_I, Offered, wish_of
 from parley.agents.planner.orders import no_robot
 from parley.agents.planner.steps import LATCHED
@@ -34,6 +36,7 @@ from parley.gate.table import Effect, verdict
 from parley.language.base import Language
 from parley.language.control import Control, control_of
 from parley.language.dialogue.taught import taught_in, with_names
+from parley.language.dialogue.team import is_to_all
 from parley.language.stop_words import calls_to_stop, is_no, only_takes_back, opens_with_no
 from parley.memory.client import recall
 from parley.messages import topics
@@ -53,6 +56,7 @@ from parley.messages.status import (
     StopCommand,
 )
 from parley.sentences import sentence, together
+from parley.team.outlook import Survey
 from parley.transport.base import Transport
 from parley.world.object_map import MapObject
 
@@ -78,6 +82,7 @@ class ChatInterface(Node):
         rules: Hears what people say about rules before any language engine does.
         rooms: Parts of a robot's map with a name, as goals.
         soon: Waits a moment for what a robot has to tell of its map when it comes.
+        survey: Says what each robot has before it, for sharing work; None: nobody can tell.
     """
 
     name: ClassVar[str] = "chat_interface"
@@ -96,12 +101,18 @@ class ChatInterface(Node):
         rules: RuleTalk | None = None,
         rooms: Callable[[str], Sequence[MapObject]] = lambda _: (),
         soon: Callable[[str], Awaitable[None]] | None = None,
+        survey: Survey | None = None,
     ) -> None:
         super().__init__(transport)
         self._rules, self._soon = rules, soon
         self._clock = clock
         self._thinking = Thinking(language_timeout_s, patience_s)
-        self._presence = Presence(clock, tuple(known_robots), linked=linked_to(transport))
+        self._presence = Presence(
+            clock,
+            tuple(known_robots),
+            lambda *told: self._missions.on_presence(*told),
+            linked=linked_to(transport),
+        )
         self._halts: dict[str, int] = {}
         """How often each robot was told to stop."""
         self._known = Situations(transport, self._presence, objects, history_exchanges, clock, rooms)
@@ -127,6 +138,8 @@ class ChatInterface(Node):
             has_rules=lambda: self._rules is not None and self._rules.has_rules,
         )
         self._say = self._answering.say
+        talk = TeamTalk(language, self._known, self._presence, survey, self._offered.newest)
+        self._missions = Missions(self, talk, self._answering, self._known, self._presence, language.label)
 
     async def open(self) -> None:
         """See `Node.open`."""
@@ -156,7 +169,7 @@ class ChatInterface(Node):
             self._holds.end(held)
 
     def _read(self, said: ChatInput) -> None:
-        if not self._seen_ids.is_new(said.id):
+        if not self._seen_ids.is_new(said.id) or self._stops_all(said):
             return
         if problem := texts.unreadable(said.message, bare=bool(said.images)):
             self._say(said.targets, problem, "error", said.id)
@@ -172,6 +185,7 @@ class ChatInterface(Node):
             self._questions.on_input(said)
             return  # an answer; where several robots wait, the error handler asks which is meant
         calls, refuses = calls_to_stop(said.message), self._says_no(said.message, control)
+        hear: list[tuple[str, ChatFeedback | None]] = []
         for target in self._meant(said, control, calls=calls):
             question = self._questions.newest(target) if said.type == "response" else None
             offered = self._offered.newest(target) is not None and question is None
@@ -195,25 +209,69 @@ class ChatInterface(Node):
                 text = texts.not_there(target)
                 self._say((target,), text, "error", said.id)
             else:
-                self._hear(target, said, question)
+                hear.append((target, question))
+        self._hear_all(hear, said)
         self._questions.on_input(said)
 
-    def _hear(self, target: str, said: ChatInput, question: ChatFeedback | None) -> None:
-        """Have something understood, unless it answers `question` or is about what waits or takes long."""
+    def _stops_all(self, said: ChatInput) -> bool:
+        """Whether somebody calls all robots to stop, whichever of them hears it; all of them do then."""
+        control = control_of(said.message, self._presence.names())
+        halts = control in _HALTING or (control is None and calls_to_stop(said.message))
+        if not (halts and is_to_all(said.message)):
+            return False
+        for target in self._presence.ever():
+            self._control(target, control or "stop", said, more=control is None)
+        self._questions.on_input(said)
+        return True
+
+    def _hear_all(self, hear: Sequence[tuple[str, ChatFeedback | None]], said: ChatInput) -> None:
+        """Have something understood by those it was said to, each with the question that it answers."""
+        team = tuple(target for target, _ in hear)
+        if len(hear) > 1 and all(question is None for _, question in hear):
+            self._hear(team[0], said, None, team)
+            return
+        for target, question in hear:
+            self._hear(target, said, question)
+
+    def _hear(
+        self, target: str, said: ChatInput, question: ChatFeedback | None, team: Sequence[str] = ()
+    ) -> None:
+        """Have something understood, unless it answers `question` or is about what waits or takes long.
+
+        Args:
+            target: The robot.
+            said: The message.
+            question: What it answers.
+            team: All that hear it with this one: one understands it, and the others only what is not for all.
+        """
         names = self._presence.names()
         decision = self._offered.decided(target, said, names) if question is None else None
         if decision is not None:
             self._hand_on(target, decision, said)
+            for mate in self._missions.mates(target) - {*said.targets}:
+                other = self._offered.decided(mate, said, names)
+                if other is not None and self._offered.is_asked(mate):
+                    self.publish(topics.PLAN_DECISION, other)
+        elif question is None and (self._set_aside(target, said) or self._undoes(target, said)):
+            pass
+        elif self._understands(target, said, question, team):
             return
-        if question is None and (self._set_aside(target, said) or self._undoes(target, said)):
-            return
+        for other_robot in team[1:]:
+            self._hear(other_robot, said, None)
+
+    def _understands(
+        self, target: str, said: ChatInput, question: ChatFeedback | None, team: Sequence[str]
+    ) -> bool:
+        """Have a message understood; whether that is seen to for all of `team`."""
         about = said.reply_to or (question.id if question else "")
         known = self._recollections.asked(about) or (self._rules is not None and self._rules.asked(about))
         ours = about if said.type == "response" and known else ""
         if question is None or ours:
-            self._mailboxes.post(target, self._work(target, said, ours))
-        elif said.images:
+            self._mailboxes.post(target, self._work(target, said, ours, team))
+            return True
+        if said.images:
             self._mailboxes.post(target, self._keep_pictures(target, said, question.message))
+        return False
 
     def _only_stops(self, said: ChatInput) -> None:
         """Hear who may give no orders: everybody may call to stop, and what else is in it does not count."""
@@ -269,23 +327,38 @@ class ChatInterface(Node):
         asked = self._offered.is_asked(target) or begins_with_no(said.message)
         return asked and assent_of(said.message, self._presence.names()) is False
 
-    def _work(self, target: str, said: ChatInput, ours: str = "") -> Callable[[], Awaitable[None]]:
-        halts = dict(self._halts)
+    def _work(
+        self, target: str, said: ChatInput, ours: str = "", team: Sequence[str] = ()
+    ) -> Callable[[], Awaitable[None]]:
+        halts, left = dict(self._halts), [*team[1:]]
 
-        async def work() -> None:
+        def others() -> None:
+            while left:
+                self._hear(left.pop(0), said, None)
+
+        async def understood() -> bool:
+            """Whether it was an order to all together."""
             if self._soon is not None:
                 await self._soon(target)
             if await self._about_rules(target, said, ours):
-                return
+                return False
             mine = ours if self._recollections.asked(ours) else ""
+            together_done = False
             if not mine and (answer := await log_answer(self.transport, self._clock, target, said)):
                 self._say((target,), answer, "response", said.id)
             elif not await self._recollections.handles(target, said, mine):
                 order = await self._teaching.handles(target, said)
                 heard = said.model_copy(update={"message": order}) if order else said
-                if order != "":
+                together_done = order != "" and await self._missions.handles(target, heard, halts, team)
+                if order != "" and not together_done:
+                    others()  # they need not wait until this one has answered
                     await self._answering.answer(target, heard, halts)
             self._ask_about_rules_again(target, said)
+            return together_done
+
+        async def work() -> None:
+            if not await understood():
+                others()
 
         return work
 
@@ -382,6 +455,7 @@ class ChatInterface(Node):
         self._known.on_plan(told)
         self._offered.on_update(told)
         self._holds.on_update(told)
+        self._missions.on_plan(told)
         status = self._presence.get(told.target)
         if done := self._finishing.on_update(told, status.catalogue if status else ()):
             self._say((told.target,), done, "info")
@@ -397,6 +471,7 @@ class ChatInterface(Node):
 
     def _on_decision(self, decision: PlanDecision) -> None:
         self._offered.on_decision(decision)
+        self._missions.on_decision(decision)
 
     def _on_emergency(self, command: StopCommand) -> None:
         """The stop button: what was asked for before it is dropped, as if it had been said."""

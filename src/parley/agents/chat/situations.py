@@ -22,7 +22,7 @@ from parley.memory.sayings import asks_for_all
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.memory import MemoryEntry
-from parley.messages.status import ActorStatus, GraphEvent, PlanProposal, PlanUpdate
+from parley.messages.status import ActionInfo, ActorStatus, GraphEvent, PlanProposal, PlanUpdate
 from parley.transport.base import Transport
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
@@ -62,6 +62,7 @@ class Situations:
         self._history_exchanges, self._clock = history_exchanges, clock
         self._rooms = rooms
         self.plans: dict[str, PlanUpdate] = {}
+        self._catalogues: dict[str, Sequence[ActionInfo]] = {}
         self.questions = OpenQuestions()
         self._failures: Latest[str, ErrorHandlingMessage] = Latest()
         self._conversations: Latest[str, Conversation] = Latest()
@@ -82,6 +83,8 @@ class Situations:
         """A robot's plan changed."""
         status = self._presence.get(update.target)
         self.plans[update.target] = update
+        if status is not None:
+            self._catalogues[update.target] = status.catalogue
         self.log(update.target).on_plan(update, self._clock.unix_ms(), status.catalogue if status else ())
 
     def on_event(self, event: GraphEvent) -> None:
@@ -97,6 +100,10 @@ class Situations:
             pose = _pose(self._presence.get(target))
             asked = Order(said.message, said.who.name, self._clock.unix_ms(), tuple(order.queue), pose)
             self.log(target).on_order(asked)
+
+    def catalogue(self, target: str) -> Sequence[ActionInfo]:
+        """What a robot can do, or could when its plan was heard of last."""
+        return self._catalogues.get(target, ())
 
     def changes(self, target: str) -> int:
         """How often words have changed what a robot does."""

@@ -101,12 +101,15 @@ class Offered:
     def __init__(self) -> None:
         self._waiting: dict[str, list[PlanProposal]] = {}
         self._asked: Latest[str, bool] = Latest()
+        self._early: set[str] = set()
+        """Robots that asked about something that is still on its way here."""
 
     def on_proposal(self, proposal: PlanProposal) -> None:
         """Steps wait for a yes; one in words counts once the robot has asked about them."""
         waiting = self._waiting.setdefault(proposal.target, [])
         if all(other.id != proposal.id for other in waiting):
-            self._asked[proposal.target] = False
+            self._asked[proposal.target] = proposal.target in self._early
+            self._early.discard(proposal.target)
             waiting.append(proposal)
 
     def on_decision(self, decision: PlanDecision) -> None:
@@ -130,7 +133,8 @@ class Offered:
             asking: How the question ends that asks for a yes to a plan.
         """
         for target in feedback.targets:
-            self._asked[target] = feedback.message.rstrip().endswith(asking)
+            asked = self._asked[target] = feedback.message.rstrip().endswith(asking)
+            (self._early.add if asked and self.newest(target) is None else self._early.discard)(target)
 
     def is_asked(self, target: str) -> bool:
         """Whether the question about what waits is the last thing the robot said."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from parley.agents.base import Node
 from parley.agents.planner import orders
@@ -10,6 +10,7 @@ from parley.agents.planner.asking import SHALL_I, wish_of
 from parley.agents.planner.effects import Effect as PlanEffect
 from parley.agents.planner.effects import Say
 from parley.agents.planner.plan import TargetPlan
+from parley.agents.planner.relay import Relay
 from parley.agents.planner.remembering import memory_change
 from parley.agents.planner.robot_plans import RobotPlans
 from parley.agents.planner.steps import Step
@@ -32,15 +33,27 @@ class Commands:
     Args:
         node: Whose topics.
         plans: What is known of each robot.
+        relay: Keeps what waits for other robots.
+        begin_for: Told on whose account a robot acts from now on.
     """
 
-    def __init__(self, node: Node, plans: RobotPlans) -> None:
-        self._node, self._plans = node, plans
+    def __init__(
+        self,
+        node: Node,
+        plans: RobotPlans,
+        relay: Relay,
+        begin_for: Callable[[str, Principal | None], None],
+    ) -> None:
+        self._node, self._plans, self._relay, self._begin_for = node, plans, relay, begin_for
+        relay.begin = lambda plan, order, calls, by: self.append(
+            plan, calls, order.model_copy(update={"after": ()}), by
+        )
 
     def effects_of(self, plan: TargetPlan, command: SystemCommand, by: Principal | None) -> list[PlanEffect]:
         """What is to be sent because of a command; memories are everybody's, see `remember`."""
         match command.command:
             case "stop" | "pause":
+                self._relay.interrupt(plan)
                 left = self._plans.left.pause(plan.target)
                 if plan.pending or left:
                     self.hold_for(plan, by)
@@ -56,6 +69,7 @@ class Commands:
                 self._plans.held_by.pop(plan.target, None)
                 return left or plan.start()
             case "clear":
+                self._relay.drop(plan)
                 for proposal in self._plans.approvals.of(plan.target):
                     self._plans.approvals.drop(proposal.id)
                 self._plans.held_by.pop(plan.target, None)
@@ -70,18 +84,31 @@ class Commands:
         return []  # memories are everybody's, see _remember
 
     def append(
-        self, plan: TargetPlan, calls: Sequence[ActionCall], words: str, *, goes_on: bool = False
+        self,
+        plan: TargetPlan,
+        calls: Sequence[ActionCall],
+        order: ChatAction,
+        by: Principal | None,
+        *,
+        goes_on: bool = False,
     ) -> None:
         """Put steps behind the plan; a robot that stands still goes on standing, and says so.
 
         Args:
             plan: Of the robot.
             calls: The steps.
-            words: The person's.
+            order: Where they come from; what other robots are to do before is waited for.
+            by: On whose account.
             goes_on: Whether who orders it holds the robot, and no person has held it since.
         """
-        still = plan.update().state == "paused"
-        self._plans.send(plan, plan.append(calls, words))
+        if self._relay.keeps(plan, order, calls, by):
+            return
+        still, before = plan.update().state == "paused", [*plan.steps]
+        if calls:
+            self._begin_for(plan.target, by)
+        effects = plan.append(calls, order.words)
+        self._relay.note(order.id, plan, before)
+        self._plans.send(plan, effects)
         if still and goes_on:
             self._plans.held_by.pop(plan.target, None)
             self._plans.send(plan, plan.start())

@@ -21,7 +21,7 @@ from parley.gate.judge import Judgement
 from parley.gate.table import Effect, verdict
 from parley.messages import topics
 from parley.messages.audit import AuditEvent
-from parley.messages.chat import ActionCall, SystemCommand
+from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 from parley.messages.status import PlanDecision, PlanProposal
 
 __all__ = ["Decisions"]
@@ -169,12 +169,13 @@ class Decisions:
         rest = not repairs and plan.update().state == "paused" and bool(plan.pending)
         if calls and not rest:  # whoever says yes to steps wants them done, but not what they told to wait
             self._plans.held_by.pop(plan.target, None)
-        if calls:
-            self._begin_for(plan.target, decision.by)
         if repairs:
+            if calls:
+                self._begin_for(plan.target, decision.by)
             self._plans.send(plan, orders.take_repair(plan, calls))
         elif calls:
-            self._commands.append(plan, calls, proposal.words)
+            order = ChatAction(words=proposal.words, id=proposal.order, after=proposal.after)
+            self._commands.append(plan, calls, order, decision.by)
             if not rest and plan.update().state == "paused":
                 self._plans.send(plan, plan.start())
         else:

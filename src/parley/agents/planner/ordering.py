@@ -51,7 +51,6 @@ class Ordering:
         proposals: Where what waits for a yes is put.
         commands: Does what a command says.
         judge: What the rules say about steps; None: there are none.
-        begin_for: Told on whose account a robot acts from now on.
     """
 
     def __init__(
@@ -61,10 +60,9 @@ class Ordering:
         proposals: Proposals,
         commands: Commands,
         judge: Judge | None,
-        begin_for: BeginFor,
     ) -> None:
         self._node, self._plans, self._proposals, self._commands = node, plans, proposals, commands
-        self._judge, self._begin_for = judge, begin_for
+        self._judge = judge
         self._mailboxes: Mailboxes[str] = Mailboxes(self._on_defect)
         self._weighing: dict[str, int] = {}
         """How often each robot was told to stand still: what is being weighed then is not done."""
@@ -189,10 +187,9 @@ class Ordering:
                 plan, order, calls or (), ruling.ask, why=self._why(plan, order, judgement)
             )
         elif calls and ruling.begins == "now":
-            self._begin_for(plan.target, order.behalf or order.by)
             own = order.by is not None and self._plans.held_by.get(plan.target) == order.by
             goes_on = own and verdict(order.by, Effect.RESUME) in ("allow", "own")
-            self._commands.append(plan, calls, order.words, goes_on=goes_on)
+            self._commands.append(plan, calls, order, order.behalf or order.by, goes_on=goes_on)
         self._tell_ruling(plan, order, ruling, asked=asks and not crowded, refused=calls is None or crowded)
 
     def _forbid(self, plan: TargetPlan, order: ChatAction, judgement: Judgement) -> None:

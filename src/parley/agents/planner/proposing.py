@@ -48,18 +48,7 @@ class Proposals:
         bound: list[Bound] = []
         for command in commands:
             bound.append((command, plan.meant(command)))
-        proposal = PlanProposal(
-            id="new",
-            target=target,
-            message=order.message_response,
-            steps=tuple(calls),
-            commands=tuple(commands),
-            digest=digest_of(target, calls, commands, self._plans.objects(target)),
-            by=order.by,
-            why=self._node.spoken(why),
-            words=order.words,
-            **self._told(plan, calls, bound),
-        )
+        proposal = self._made(plan, order, calls, commands, bound, why)
         for same in [item for item in self._plans.approvals.of(target) if item.digest == proposal.digest]:
             self._plans.approvals.drop(same.id)  # said once more, it is asked about once
         proposal = self._plans.approvals.propose(
@@ -68,6 +57,35 @@ class Proposals:
         self._node.publish(topics.PLAN, proposal)
         self._plans.send(plan, [])
         return proposal
+
+    def keep(self, plan: TargetPlan, order: ChatAction, calls: Sequence[ActionCall]) -> str:
+        """Write down what waits for other robots, so that it is asked about after a restart; its id."""
+        proposal = self._made(plan, order, calls, (), (), "")
+        return self._plans.approvals.keep(proposal, self._plans.presence.get(plan.target))
+
+    def _made(
+        self,
+        plan: TargetPlan,
+        order: ChatAction,
+        calls: Sequence[ActionCall],
+        commands: Sequence[SystemCommand],
+        bound: Sequence[Bound],
+        why: str,
+    ) -> PlanProposal:
+        return PlanProposal(
+            id="new",
+            target=plan.target,
+            message=order.message_response,
+            steps=tuple(calls),
+            commands=tuple(commands),
+            digest=digest_of(plan.target, calls, commands, self._plans.objects(plan.target)),
+            by=order.by,
+            why=self._node.spoken(why),
+            words=order.words,
+            order=order.id,
+            after=order.after,
+            **self._told(plan, calls, bound),
+        )
 
     def show_again(self, plan: TargetPlan, proposal: PlanProposal, why: str = "") -> None:
         """Something else was agreed to than what waits, or it would mean something else by now.

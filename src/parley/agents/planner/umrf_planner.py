@@ -18,6 +18,7 @@ from parley.agents.planner.offers import Offers
 from parley.agents.planner.ordering import BeginFor, Judge, Ordering
 from parley.agents.planner.proposal_log import ProposalLog
 from parley.agents.planner.proposing import Proposals
+from parley.agents.planner.relay import Relay
 from parley.agents.planner.robot_plans import RobotPlans
 from parley.agents.planner.sending import Patience
 from parley.clock import Clock
@@ -82,9 +83,10 @@ class UmrfPlanner(Node):
             objects=objects,
             met=met,
         )
-        waiting, commands = Proposals(self, self._plans), Commands(self, self._plans)
-        self._commands = commands
-        self._orders = Ordering(self, self._plans, waiting, commands, judge, begin_for)
+        waiting = Proposals(self, self._plans)
+        self._relay = Relay(self._plans, waiting)
+        commands = self._commands = Commands(self, self._plans, self._relay, begin_for)
+        self._orders = Ordering(self, self._plans, waiting, commands, judge)
         self._decisions = Decisions(self, self._plans, waiting, commands, self._orders, begin_for)
         self.restore, self.adopt = self._plans.restore, self._plans.adopt
         self.met, self.offer_again = self._plans.met, self._plans.offer_again
@@ -107,6 +109,7 @@ class UmrfPlanner(Node):
         """Whoever stops a robot holds its plan: only a person lets it go on after the reset."""
         for name in command.targets or tuple(self._plans.by_robot) if command.command == "stop" else ():
             plan = self._plans.plan(self._plans.presence.resolve(name) or name)
+            self._relay.interrupt(plan)
             if plan.pending:
                 self._commands.hold_for(plan, command.by or person())
                 self._plans.send(plan, [])

@@ -1,0 +1,232 @@
+"""One order to a team: each robot's part passes the gate by itself, people are told of all in one."""
+
+from __future__ import annotations
+
+import uuid
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+from parley.agents.base import Node
+from parley.agents.chat import texts
+from parley.agents.chat.answering import Answering
+from parley.agents.chat.situations import Situations
+from parley.agents.chat.team import Mission, Share, TeamTalk
+from parley.agents.planner.asking import SHALL_I, counted
+from parley.agents.planner.check import complete_calls
+from parley.agents.presence import Presence
+from parley.errors import LanguageError
+from parley.gate.cards import labels_of, lines_of
+from parley.gate.orders import Heard, admit
+from parley.latest import Latest
+from parley.messages import topics
+from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
+from parley.messages.status import PlanDecision, PlanRuling, PlanUpdate
+from parley.sentences import Sentence, sentence, together
+
+__all__ = ["Missions"]
+
+WOULD_DO: Final = sentence("This is how we would do it.")
+DOES: Final = sentence("This is how we do it.")
+
+
+class Missions:
+    """Orders to teams.
+
+    Args:
+        node: Whose topics and language.
+        talk: Understands them.
+        answering: Hands orders on.
+        known: What was heard of each robot.
+        presence: Who is there.
+        engine: What the language engine is called.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        talk: TeamTalk,
+        answering: Answering,
+        known: Situations,
+        presence: Presence,
+        engine: str,
+    ) -> None:
+        self._node, self._talk, self._answering = node, talk, answering
+        self._known, self._presence, self._engine = known, presence, engine
+        self._mates: Latest[str, frozenset[str]] = Latest()
+        """By robot who else was asked about in the same breath."""
+        self._teams: Latest[str, tuple[str, ...]] = Latest()
+        """By robot the team whose work it has a part of."""
+        self._relieves: Latest[str, ChatAction] = Latest()
+        """By robot what is given up once its yes is there."""
+        self._told_of: Latest[tuple[str, str], bool] = Latest()
+        """Which robots' parts were offered already, and in which graph."""
+
+    def on_plan(self, update: PlanUpdate) -> None:
+        """A robot's plan changed: where it stands, somebody else of the team may take its part over."""
+        if update.state in ("held", "paused"):
+            self._offer(update.target, update.graph_name)
+        elif update.state == "idle":
+            self._teams.pop(update.target, None)
+
+    def on_presence(self, robot: str, joined: bool) -> None:
+        """A robot came or left."""
+        if not joined:
+            plan = self._known.plans.get(robot)
+            self._offer(robot, f"gone from {plan.graph_name if plan is not None else ''}")
+
+    def _offer(self, robot: str, about: str) -> None:
+        team = self._teams.get(robot)
+        if team is not None and (robot, about) not in self._told_of:
+            self._told_of[robot, about] = True
+            self._node.spawn(self._offer_part(robot, team), name=f"part of {robot}")
+
+    async def _offer_part(self, robot: str, team: Sequence[str]) -> None:
+        """Ask whether another robot shall take over what a robot leaves undone; nothing is done by itself."""
+        try:
+            found = await self._talk.stand_in(robot, team)
+        except LanguageError as error:
+            self._node.log.warning("no part offered", robot=robot, error=repr(error))
+            return
+        if found is None:
+            return
+        other, reason = found
+        words = f"Let {other} take over from {robot}"
+        text = sentence("{other} could do what is left of {robot}’s part ({why}). Say “{words}” if it shall.",
+                        other=other, robot=robot, why=reason, words=words)  # fmt: skip
+        feedback = ChatFeedback(
+            message=self._node.spoken(text), targets=(robot, other), type="info", choices=(words,)
+        )
+        self._node.publish(topics.CHAT_FEEDBACK, feedback)
+
+    def mates(self, robot: str) -> frozenset[str]:
+        """Whose parts a yes or a no to this robot is meant for, too, if nothing else was said since; once."""
+        return self._mates.pop(robot, frozenset()) - {robot}
+
+    async def handles(
+        self, target: str, said: ChatInput, halts: Mapping[str, int], team: Sequence[str] = ()
+    ) -> bool:
+        """Whether a message was for several robots together, and has been answered.
+
+        Args:
+            target: The robot it was said to.
+            said: The message.
+            halts: How often each robot had been told to stop when it was said.
+            team: All it was said to, if that is more than one.
+        """
+        wish = self._talk.wish(said.message)
+        if wish is None and len(team) < 2:
+            return False
+        try:
+            async with self._answering.thinking(target, said):
+                mission = await self._talk.mission(wish, target, said, team)
+        except (LanguageError, TimeoutError) as error:
+            self._answering.not_understood(target, said, halts, error)
+            return True
+        if mission is None:
+            return False
+        if mission.shares:
+            await self._carry_out(target, said, mission, halts)
+        else:
+            self._say((target,), mission.text, said, mission.choices)
+        return True
+
+    async def _carry_out(
+        self, target: str, said: ChatInput, mission: Mission, halts: Mapping[str, int]
+    ) -> None:
+        """Hand the parts on, hear what became of each, and say just that."""
+        orders = self._orders(target, said, mission)
+        if orders is None:
+            self._say((target,), texts.CANNOT, said)
+            return
+        rulings: dict[str, PlanRuling] = {}
+        for order in orders:
+            if self._answering.halted_since(halts, order.targets[0]):
+                continue
+            for ruling in await self._answering.submit(order, said) or ():
+                rulings[ruling.target] = ruling
+        self._relieve(said, mission, rulings)
+        team = self._presence.names() if any(share.why for share in mission.shares) else ()
+        for share in mission.shares if team else ():
+            self._teams[share.robot] = team
+        told: list[Sentence | str] = [self._told(share, rulings.get(share.robot)) for share in mission.shares]
+        asked = frozenset(name for name, ruling in rulings.items() if ruling.outcome == "asked")
+        for name in asked:
+            self._mates[name] = asked
+        reply = together(WOULD_DO if asked else DOES, *told, mission.text, SHALL_I if asked else "")
+        robots = tuple(dict.fromkeys((target, *(share.robot for share in mission.shares))))
+        for name in robots:
+            self._known.note(name, said.message, reply)
+        self._say(robots, reply, said)
+
+    def _relieve(self, said: ChatInput, mission: Mission, rulings: Mapping[str, PlanRuling]) -> None:
+        """Give up what others take over: now, or once their yes is there."""
+        outcomes = {ruling.outcome for ruling in rulings.values()}
+        for name in mission.relieved if outcomes and "refused" not in outcomes else ():
+            order = ChatAction(
+                system_cmd=(SystemCommand(command="clear"),), targets=(name,), by=said.who, words=said.message
+            )
+            if outcomes == {"done"}:
+                self._node.publish(topics.CHAT_ACTION, order)
+            else:
+                self._relieves[mission.shares[0].robot] = order
+
+    def on_decision(self, decision: PlanDecision) -> None:
+        """Somebody decided about a robot's steps."""
+        order = self._relieves.pop(decision.target, None)
+        if order is not None and decision.decision == "approve":
+            self._node.publish(topics.CHAT_ACTION, order)
+
+    def _orders(self, target: str, said: ChatInput, mission: Mission) -> list[ChatAction] | None:
+        """The parts as orders on the person's account; None if some robot could not carry its part out."""
+        parts = tuple(ChatAction(queue=share.calls, targets=(share.robot,)) for share in mission.shares)
+        named = tuple(share.robot for share in mission.shares)
+        heard = Heard(said.message, said.who, target, named, self._engine)
+        admitted = admit(ChatAction(others=parts), heard)
+        ids = {share.robot: uuid.uuid4().hex for share in mission.shares}
+        found: list[ChatAction] = []
+        for order, share in zip(admitted.others, mission.shares, strict=True):
+            doubt = admit(ChatAction(needs_yes=share.needs_yes), heard).order.needs_yes
+            trusted = self._answering.trusted(share.robot, order)
+            if trusted is None:
+                return None
+            own = {
+                "id": ids[share.robot],
+                "reply_to": said.id,
+                "needs_yes": doubt,
+                "after": tuple(ids[name] for name in share.after),
+                "replaces": mission.dropped.get(share.robot, ""),
+            }
+            found.append(trusted.model_copy(update=own))
+        for name, proposal in mission.dropped.items():
+            if name not in ids:  # it is given on: what waited here for a yes waits no more
+                found.append(admitted.order.model_copy(update={"targets": (name,), "replaces": proposal}))
+        return found
+
+    def _told(self, share: Share, ruling: PlanRuling | None) -> Sentence:
+        """A part in words: what will really be done of it, and why by that robot."""
+        status = self._presence.get(share.robot)
+        catalogue = status.catalogue if status is not None else ()
+        calls = complete_calls(share.calls, catalogue)
+        labels = labels_of(calls, catalogue, self._known.objects(share.robot))
+        lines: Sequence[str] = lines_of(calls, labels, catalogue)
+        if ruling is not None and ruling.lines:
+            lines = ruling.lines
+        steps = counted(lines)
+        if ruling is None or ruling.outcome == "refused":
+            return sentence(
+                "{robot} leaves its part, so nobody does it: {steps}.", robot=share.robot, steps=steps
+            )
+        if share.after:
+            others = ", ".join(share.after)
+            return sentence("{robot}, as soon as {others} has done its part: {steps}.",
+                            robot=share.robot, others=others, steps=steps)  # fmt: skip
+        if share.why:
+            return sentence("{robot}: {steps} ({why}).", robot=share.robot, steps=steps, why=share.why)
+        return sentence("{robot}: {steps}.", robot=share.robot, steps=steps)
+
+    def _say(self, robots: Sequence[str], text: str, said: ChatInput, choices: Sequence[str] = ()) -> None:
+        feedback = ChatFeedback(
+            message=self._node.spoken(text), targets=tuple(robots), type="response", choices=tuple(choices),
+            reply_to=said.id,
+        )  # fmt: skip
+        self._node.publish(topics.CHAT_FEEDBACK, feedback)

@@ -1,0 +1,389 @@
+"""What is said to several robots at once: understood once, split, and given to those who are done soonest."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Final
+
+from parley.agents.chat.situations import Situations
+from parley.agents.planner.flow import pending_calls
+from parley.agents.presence import Presence
+from parley.gate.orders import UNSURE_OF_ALL
+from parley.language.base import Language, Situation
+from parley.language.dialogue.team import Part, TeamWish, is_in_turn, is_of_several, team_wish
+from parley.language.stop_words import calls_to_stop
+from parley.messages.chat import ActionCall, ChatAction, ChatInput
+from parley.messages.status import ActorStatus, PlanProposal
+from parley.sentences import Sentence, listed, sentence, together
+from parley.team.outlook import Outlook, Survey, Task
+from parley.team.sharing import alike, left_of, place_of, shared, tasks_of, why
+from parley.world.geometry import Pose2D
+
+__all__ = ["Mission", "Share", "TeamTalk"]
+
+MOST_TASKS: Final = 40
+"""More places than this are not shared in one order."""
+
+
+@dataclass(frozen=True, slots=True)
+class Share:
+    """One robot's part."""
+
+    robot: str
+    calls: tuple[ActionCall, ...]
+    why: Sentence | str = ""
+    needs_yes: str = ""
+    """What of the words was not understood."""
+    after: tuple[str, ...] = ()
+    """Robots whose parts of this mission have to be done before."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mission:
+    """What comes of words to a team: parts, or something to say."""
+
+    shares: tuple[Share, ...] = ()
+    text: str = ""
+    """What else is said: an answer, a question, who cannot do what."""
+    choices: tuple[str, ...] = ()
+    dropped: Mapping[str, str] = field(default_factory=dict)
+    """By robot: its proposal in whose place this comes."""
+    relieved: tuple[str, ...] = ()
+    """Robots whose plans are given up, as others take them over."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Understood:
+    """What one robot would do about the words of a part."""
+
+    calls: tuple[ActionCall, ...]
+    tasks: list[Task]
+    needs_yes: str = ""
+
+
+class TeamTalk:
+    """Understands what is said to several robots.
+
+    Args:
+        language: Understands the work itself.
+        known: What was heard of each robot.
+        presence: Who is there.
+        survey: Says what each robot has before it; None: nobody can tell, so nothing is shared.
+        offered: What of a robot waits for a yes.
+    """
+
+    def __init__(
+        self,
+        language: Language,
+        known: Situations,
+        presence: Presence,
+        survey: Survey | None,
+        offered: Callable[[str], PlanProposal | None],
+    ) -> None:
+        self._language, self._known, self._presence = language, known, presence
+        self._survey, self._offered = survey, offered
+
+    def wish(self, message: str) -> TeamWish | None:
+        """How words spread work over robots; None if they do not."""
+        if self._survey is None or calls_to_stop(message):
+            return None
+        return team_wish(message, self._presence.ever())
+
+    async def mission(
+        self, wish: TeamWish | None, target: str, said: ChatInput, team: Sequence[str]
+    ) -> Mission | None:
+        """What becomes of words to a team; None if they are to be understood by each robot for itself.
+
+        Args:
+            wish: How they spread work; None: the same was said to all of `team`.
+            target: Whom it was said to.
+            said: The message.
+            team: Several robots that it was sent to; empty: all that are there are meant.
+        """
+        if self._survey is None:
+            return None
+        plain = wish is None
+        wish = wish or TeamWish("parts", (Part("all", said.message),))
+        if wish.kind == "about":
+            return await self._asked(wish, said)
+        members = {
+            name: status
+            for name in team or self._presence.names()
+            if (status := self._presence.get(name)) is not None and status.state != "stopped" and status.pose
+        }
+        if wish.count and wish.count != len(team or self._presence.names()):
+            return Mission(text=sentence("Which of us do you mean? Please call us by our names."))
+        work = _Work(self, said, members, plain=plain)
+        if wish.kind == "nearest":
+            return await work.nearest(wish.about)
+        if wish.bare:
+            what = wish.parts[0].order
+            text = sentence("What shall we do about {what}?", what=what)
+            spread = (f"Check {what}, split between you", f"Go to {what}, split between you")
+            return Mission(text=text, choices=spread)
+        return await work.parts(wish, target)
+
+    async def _asked(self, wish: TeamWish, said: ChatInput) -> Mission:
+        """A question about another robot, answered by that one."""
+        situation = await self._situation(wish.robot, wish.about, said)
+        answer = await self._language.interpret(situation)
+        text = sentence("{robot} says: “{answer}”", robot=wish.robot, answer=answer.message_response)
+        return Mission(text=text)
+
+    async def _situation(self, robot: str, words: str, said: ChatInput) -> Situation:
+        found = await self._known.of(robot, words, said, sees_pictures=False, proposal=self._offered(robot))
+        return replace(found, robots=(robot,))
+
+    async def understood(
+        self, robot: str, words: str, said: ChatInput
+    ) -> tuple[_Understood | None, ChatAction]:
+        """What a robot would do about words, and all it has to say to them."""
+        situation = await self._situation(robot, words, said)
+        answer = await self._language.interpret(situation)
+        calls = answer.queue or answer.offer
+        if not calls or answer.system_cmd or answer.alarm or answer.targets not in ((), (robot,)):
+            return None, answer
+        doubt = answer.needs_yes or ("" if answer.queue else UNSURE_OF_ALL)
+        return _Understood(calls, tasks_of(calls, situation.catalogue), doubt), answer
+
+    async def outlooks(
+        self,
+        members: Mapping[str, ActorStatus],
+        tasks: Sequence[Task],
+        booked: Mapping[str, Sequence[ActionCall]],
+    ) -> dict[str, Outlook]:
+        """What each robot has before it; `booked` is what it has just been given."""
+        assert self._survey is not None
+        found: dict[str, Outlook] = {}
+        for name, status in members.items():
+            assert status.pose is not None
+            plan = self._known.plans.get(name)
+            pending = [*(pending_calls(plan) if plan else ()), *booked.get(name, ())]
+            pose = Pose2D(status.pose.x, status.pose.y, status.pose.yaw)
+            outlook = await self._survey(name, status.catalogue, pose, pending, tasks)
+            if outlook is not None:
+                found[name] = outlook
+        return found
+
+    async def said_last(self, target: str, said: ChatInput) -> tuple[str, str]:
+        """The words that "that" means, and the proposal of it that waits; or why they cannot be given on."""
+        situation = await self._situation(target, said.message, said)
+        proposal, orders = self._offered(target), situation.dialogue.orders
+        if proposal is not None and proposal.words:
+            return proposal.words, proposal.id
+        if orders and not situation.queue:
+            return orders[-1].words, ""
+        asked = situation.dialogue.asked
+        return (asked.words if asked is not None and not situation.queue else ""), ""
+
+    def left(self, robot: str) -> list[Task]:
+        """What a robot still has to do, each task from its beginning."""
+        plan = self._known.plans.get(robot)
+        return left_of(plan.steps, self._known.catalogue(robot)) if plan is not None else []
+
+    async def stand_in(self, robot: str, team: Sequence[str]) -> tuple[str, Sentence] | None:
+        """Who of a team could best do what is left of a robot's plan, and why."""
+        tasks = self.left(robot)
+        members = {
+            name: status
+            for name in team
+            if name != robot
+            and (status := self._presence.get(name)) is not None
+            and status.state != "stopped" and status.pose and not self.stands(name)
+            and can_do(status, tasks)
+        }  # fmt: skip
+        if not tasks or not members:
+            return None
+        whole = tuple(call for task in tasks for call in task)
+        outlooks = await self.outlooks(members, [whole], {})
+        able = {name: [True] for name in outlooks}
+        batteries = {name: members[name].battery for name in outlooks}
+        found = shared([whole], outlooks, able, batteries) if outlooks else None
+        if not found:
+            return None
+        name = next(iter(found))
+        return name, why(name, whole, 0, outlooks, able, batteries)
+
+    def is_busy(self, robot: str) -> bool:
+        """Whether a robot has something left to do."""
+        plan = self._known.plans.get(robot)
+        return plan is not None and bool(pending_calls(plan))
+
+    def stands(self, robot: str) -> bool:
+        """Whether a robot waits for a person before it goes on with anything."""
+        return self._known.state(robot) in ("held", "paused")
+
+
+def can_do(status: ActorStatus, tasks: Sequence[Task]) -> bool:
+    """Whether a robot has all the actions."""
+    known = {info.name for info in status.catalogue}
+    return all(call.name in known for task in tasks for call in task)
+
+
+class _Work:
+    """One message to a team.
+
+    Args:
+        team: What it is understood with.
+        said: The message.
+        members: The robots that may take part.
+        plain: Whether the words say nothing of a team, so that each may well understand them for itself.
+    """
+
+    def __init__(
+        self, team: TeamTalk, said: ChatInput, members: Mapping[str, ActorStatus], *, plain: bool
+    ) -> None:
+        self._team, self._said, self._members, self._plain = team, said, members, plain
+        self._batteries = {name: status.battery for name, status in members.items()}
+        self._shares: list[Share] = []
+        self._notes: list[str] = []
+        self._dropped: dict[str, str] = {}
+
+    async def nearest(self, place: str) -> Mission:
+        """Who is nearest to a place."""
+        ways: dict[str, float] = {}
+        for name, (found, answer) in (await self._read(f"go to {place}", self._members)).items():
+            if found is None:
+                return Mission(text=answer.message_response, choices=answer.choices)
+            outlook = (await self._team.outlooks({name: self._members[name]}, found.tasks[:1], {})).get(name)
+            if outlook is not None:
+                ways[name] = outlook.ways_m[0]
+                place = place_of(found.tasks[0]) or place
+        reached = sorted((way, name) for name, way in ways.items() if way != float("inf"))
+        if not reached:
+            return Mission(text=sentence("None of us can get to “{place}”.", place=place))
+        told = [sentence("{robot} {way} m", robot=name, way=f"{way:.1f}") for way, name in reached]
+        first = sentence("{robot} is nearest to “{place}”.", robot=reached[0][1], place=place)
+        return Mission(text=together(first, sentence("The ways are: {ways}.", ways=listed(told))))
+
+    async def parts(self, wish: TeamWish, target: str) -> Mission | None:
+        """Who does what of an order."""
+        before: tuple[str, ...] = ()
+        for part in wish.parts:
+            if part.of:
+                return self._taken_over(part)
+            words, stops = await self._words(part, target)
+            if stops is not None:
+                return stops
+            taken = {share.robot for share in self._shares}
+            own = self._of(part, taken)
+            if not own:
+                left = sentence("No robot is left for “{words}”, so nothing of that has begun.", words=words)
+                gone = sentence("{robot} is not ready, so nothing of that has begun.", robot=part.robot)
+                return Mission(text=gone if part.robot else left)
+            begun = len(self._shares)
+            stops = await self._part(part, words, own, wish)
+            if stops is not None:
+                return stops if stops.text else None
+            new = self._shares[begun:]
+            if part.after:
+                self._shares[begun:] = [replace(share, after=before) for share in new]
+            before = tuple(share.robot for share in new)
+        return Mission(tuple(self._shares), together(*self._notes), dropped=self._dropped)
+
+    def _taken_over(self, part: Part) -> Mission:
+        """One robot does what is left of another one's plan."""
+        status = self._members.get(part.robot)
+        tasks = self._team.left(part.of)
+        if status is None:
+            text = sentence("{robot} is not ready, so nothing of that has begun.", robot=part.robot)
+        elif not tasks:
+            text = sentence("{robot} has nothing left to do.", robot=part.of)
+        elif not can_do(status, tasks):
+            text = sentence("{robot} cannot do that.", robot=part.robot)
+        else:
+            calls = tuple(call for task in tasks for call in task)
+            text = sentence("{robot} gives up what is left of its plan.", robot=part.of)
+            return Mission((Share(part.robot, calls),), text, relieved=(part.of,))
+        return Mission(text=text)
+
+    async def _words(self, part: Part, target: str) -> tuple[str, Mission | None]:
+        """The words of a part, with what "that" means."""
+        if part.order:
+            return part.order, None
+        words, proposal = await self._team.said_last(target, self._said)
+        if not words:
+            busy = self._team.is_busy(target)
+            text = sentence("I am at something already. Say “cancel everything” first, then say it in full.")
+            return "", Mission(
+                text=text if busy else sentence("I do not know what you mean by that. Please say it in full.")
+            )
+        if proposal:
+            self._dropped[target] = proposal
+        return words, None
+
+    def _of(self, part: Part, taken: set[str]) -> dict[str, ActorStatus]:
+        """The robots a part may fall to."""
+        if part.who == "named":
+            return {name: status for name, status in self._members.items() if name == part.robot}
+        left = part.who in ("rest", "one")
+        return {name: status for name, status in self._members.items() if not (left and name in taken)}
+
+    async def _read(
+        self, words: str, members: Mapping[str, ActorStatus]
+    ) -> dict[str, tuple[_Understood | None, ChatAction]]:
+        found = await asyncio.gather(*(self._team.understood(name, words, self._said) for name in members))
+        return dict(zip(members, found, strict=True))
+
+    async def _part(
+        self, part: Part, words: str, own: Mapping[str, ActorStatus], wish: TeamWish
+    ) -> Mission | None:
+        """Take up a part. A mission with a text stops all of it, an empty one leaves it to each robot."""
+        read = await self._read(words, own)
+        able = {name: found for name, (found, _) in read.items() if found is not None}
+        if not able:
+            answer = next(iter(read.values()))[1]
+            if self._plain or answer.alarm:
+                return Mission()
+            return Mission(text=answer.message_response, choices=answer.choices)
+        first = next(iter(able.values()))
+        splits = alike(first.tasks) and not is_in_turn(words)
+        if wish.kind == "share" and not splits and len(first.tasks) > 1:
+            text = sentence("I cannot tell what of that can be done apart. Please tell each of us its part.")
+            return Mission(text=text)
+        together = part.who == "all" and wish.kind == "parts" and len(first.tasks) > 1
+        if together and not (splits and (is_of_several(words) or " and " not in words)):
+            text = sentence("Shall we share that, or shall each of us do all of it?")
+            return Mission(text=text, choices=(f"{words}, split between you", f"each of you: {words}"))
+        if part.who == "one" or wish.kind == "share" or together:
+            tasks = list(first.tasks) if splits and part.who != "one" else [first.calls]
+            return await self._allot(tasks, first, able, one_each=wish.one_each)
+        for name in own:
+            if part.who == "rest" and self._team.stands(name):
+                self._notes.append(
+                    sentence("{robot} is waiting for somebody, so it gets no part.", robot=name)
+                )
+            elif name in able:
+                self._shares.append(Share(name, able[name].calls, needs_yes=able[name].needs_yes))
+            else:
+                self._notes.append(sentence("{robot} cannot do that.", robot=name))
+        return None
+
+    async def _allot(
+        self, tasks: list[Task], first: _Understood, read: Mapping[str, _Understood], *, one_each: bool
+    ) -> Mission | None:
+        """Give tasks to those who are done soonest."""
+        if len(tasks) > MOST_TASKS:
+            return Mission(
+                text=sentence("That is too much to share in one order. Please say it in shorter pieces.")
+            )
+        booked = {share.robot: share.calls for share in self._shares}
+        free = [name for name in read if not self._team.stands(name)] or [*read]
+        for name in read.keys() - {*free}:
+            self._notes.append(sentence("{robot} is waiting for somebody, so it gets no part.", robot=name))
+        outlooks = await self._team.outlooks({name: self._members[name] for name in free}, tasks, booked)
+        able = {
+            name: [task in read[name].tasks or task == read[name].calls for task in tasks]
+            for name in outlooks
+        }
+        routes = shared(tasks, outlooks, able, self._batteries, one_each=one_each) if outlooks else None
+        if routes is None:
+            text = sentence("We cannot do all of that.")
+            return Mission(text=text)
+        for name, route in routes.items():
+            reason = why(name, route[0], tasks.index(route[0]), outlooks, able, self._batteries)
+            calls = tuple(call for task in route for call in task)
+            self._shares.append(Share(name, calls, reason, first.needs_yes))
+        return None

@@ -1,0 +1,298 @@
+"""What is said to several robots as a team: who of them is to do what, or which of them is asked about.
+
+Only the way in which the work is spread is read here. The work itself ("check the boxes") is left in the
+person's words, to be understood as if it were said to one robot. Words stand in `lexicon/team.yaml`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Final, Literal
+
+from parley.language.builtin.lexicon import lemmas, lexicon
+from parley.language.builtin.tokens import tokenize
+from parley.language.control import control_of
+from parley.language.dialogue.questions import plain, question_of
+from parley.language.lexicon import load_data
+from parley.language.stop_words import calls_to_stop
+
+__all__ = ["Part", "TeamWish", "is_in_turn", "is_of_several", "is_to_all", "team_wish"]
+
+
+Who = Literal["one", "rest", "all", "each", "named"]
+_WHO: Final[tuple[Who, ...]] = ("one", "rest", "each", "all", "named")
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """What some robots are to do."""
+
+    who: Who
+    order: str
+    """In words that one robot understands; empty: what was said last."""
+    robot: str = ""
+    """For `named`."""
+    after: bool = False
+    """Whether it waits until the part before it is done."""
+    of: str = ""
+    """Whose work it is that is taken over."""
+
+
+@dataclass(frozen=True, slots=True)
+class TeamWish:
+    """How a message spreads work over robots, or what it asks about them."""
+
+    kind: Literal["share", "parts", "nearest", "about"]
+    parts: tuple[Part, ...] = ()
+    """For `share` one, of all."""
+    about: str = ""
+    """For `nearest` the place, for `about` the question as that robot would be asked."""
+    robot: str = ""
+    """For `about`."""
+    one_each: bool = False
+    """For `share`: nobody takes more than one."""
+    count: int = 0
+    """How many robots are spoken of ("you two"); 0: that is not said."""
+    bare: bool = False
+    """For `share`: only things are named, not what is to be done there."""
+
+
+_SEVERAL: Final = re.compile(r"\b(?:all|every|each|both|any|two|three|four|five|six|[2-9])\b", re.IGNORECASE)
+_IN_TURN: Final = re.compile(
+    r"\b(?:then|first|after|afterwards|before|finally|next|second|until|when|once|if)\b", re.IGNORECASE
+)
+
+
+def is_of_several(order: str) -> bool:
+    """Whether words speak of several things as a set, which may be shared without another word."""
+    return _SEVERAL.search(order) is not None
+
+
+def is_in_turn(order: str) -> bool:
+    """Whether words say in which order things are to be done, so that they are not shared."""
+    return _IN_TURN.search(order) is not None
+
+
+def is_to_all(message: str) -> bool:
+    """Whether a message calls all robots, before or behind what it says."""
+    words = _Words(())
+    called = rf"(?:{words.of('all')}|{words.of('each')})"
+    text = words.begun(re.sub(r"[^\w']+", " ", message.replace("’", "'")).strip())
+    return re.search(rf"^{called}\b|\b{called}$", text, re.IGNORECASE) is not None
+
+
+def team_wish(message: str, robots: Sequence[str]) -> TeamWish | None:
+    """How a message is meant for a team; None if it says nothing of one.
+
+    Args:
+        message: What was said.
+        robots: Who is there; a team has at least two.
+    """
+    if len(robots) < 2:
+        return None
+    words = _Words(tuple(robots))
+    asks = message.rstrip().endswith("?")
+    text = re.sub(r"\s+", " ", message.replace("’", "'")).strip(" .!?")
+    bare = words.begun(text)
+    wish = words.about(text) or words.share(bare) or words.parts(bare, asks=asks)
+    if wish is None or any(calls_to_stop(part.order) or control_of(part.order) for part in wish.parts):
+        return None  # stopping has its own way
+    return replace(wish, count=words.count(text))
+
+
+@cache
+def _data() -> dict[str, list[str]]:
+    return {name: text.splitlines() for name, text in load_data("team").items() if isinstance(text, str)}
+
+
+class _Words:
+    """The patterns, for robots of these names."""
+
+    def __init__(self, robots: tuple[str, ...]) -> None:
+        self._robots = {name.lower(): name for name in robots}
+
+    def of(self, name: str) -> str:
+        """A list as one pattern."""
+        filled = "|".join(sorted(_data()[name], key=len, reverse=True))
+        filled = re.sub(r"(?<!\?P)<(\w+)>", lambda found: self.of(found[1]), filled)
+        return f"(?:{filled.replace('{robot}', self._names)})"
+
+    @property
+    def _names(self) -> str:
+        return f"(?:{'|'.join(re.escape(name) for name in self._robots)})"
+
+    def _match(self, pattern: str, text: str) -> re.Match[str] | None:
+        return re.fullmatch(pattern, text, re.IGNORECASE)
+
+    def begun(self, text: str) -> str:
+        """Without what only opens a sentence."""
+        while found := re.match(rf"{self.of('lead')}(?:\s+|(?<=[ ,]))", text, re.IGNORECASE):
+            text = text[found.end() :]
+        return text
+
+    def count(self, text: str) -> int:
+        """How many robots a message speaks of."""
+        told = "|".join(self.of(name) for name in ("all", "each", "one", "between"))
+        said = " ".join(found[0] for found in re.finditer(rf"\b(?:{told})\b", text, re.IGNORECASE)).lower()
+        return next((number for word, number in _NUMBERS.items() if word in said.split()), 0)
+
+    # -- questions -------------------------------------------------------------------------------------
+
+    def about(self, text: str) -> TeamWish | None:
+        """A question about robots: who is nearest, what another one is doing."""
+        bare = self.begun(text)
+        for pattern in _data()["nearest"]:
+            if found := self._match(pattern, bare):
+                return TeamWish("nearest", about=found["place"])
+        named = re.findall(rf"\b{self._names}\b", bare, re.IGNORECASE)
+        if len(named) != 1 or self._match(rf"{self._names}\b.*|.*\W{self._names}", bare):
+            return None
+        asked = re.sub(rf"\b{re.escape(named[0])}\b", "you", bare, flags=re.IGNORECASE)
+        for third, second in _SECOND.items():
+            asked = re.sub(
+                rf"(?:\b{third}|(?<=\w){third}) you\b", f"{second} you", asked, flags=re.IGNORECASE
+            )
+        if question_of(plain(tokenize(asked))) is None:
+            return None
+        return TeamWish("about", about=f"{asked}?", robot=self._robots[named[0].lower()])
+
+    # -- sharing ---------------------------------------------------------------------------------------
+
+    def share(self, text: str) -> TeamWish | None:
+        """Work that all do together, each a part."""
+        between, split, that = self.of("between"), self.of("split"), self.of("that")
+        if self._match(rf"{split} {that}(?: up)?(?: {between})?", text):
+            return _shared("")
+        if found := self._match(rf"{split} (?P<what>.+?)(?: up)? {between}(?:,? and (?P<order>.+))?", text):
+            what, order = found["what"], found["order"]
+            if order is None:
+                return TeamWish("share", (Part("all", what),), bare=True)
+            return _shared(re.sub(r"\b(?:them|those|each(?: of them)?|it)\b", what, order))
+        if found := self._match(
+            rf"(?P<order>.+?),?(?: and)?(?: (?:{split}|sharing|splitting|dividing))?(?: {that})?(?: up| out)?"
+            rf" {between}",
+            text,
+        ):
+            return _shared(found["order"])
+        if found := self._match(rf"{split} and (?P<order>.+)", text):
+            return _shared(found["order"])
+        if found := self._match(r"(?P<order>.+?),? (?:one each|one apiece|one for each of you)", text):
+            return TeamWish("share", (Part("all", found["order"]),), one_each=True)
+        found = self._match(r"(?P<verb>\w+(?: \w+)?) one (?:of the )?(?P<what>\w+(?: \w+){0,2}) each", text)
+        if found and (found["verb"].split()[0].lower(),) in lexicon().verbs:
+            return TeamWish("share", (Part("all", f"{found['verb']} every {found['what']}"),), one_each=True)
+        return None
+
+    # -- parts -----------------------------------------------------------------------------------------
+
+    def parts(self, text: str, *, asks: bool) -> TeamWish | None:
+        """Who is to do what, one part after the other as it was said."""
+        if (taken := self._taken_over(text)) is not None:
+            return taken
+        if found := self._match(rf"{self.of('handing')} (?P<robot>{self._names}) (?P<order>.+)", text):
+            own = self._part("named", found["robot"], found["order"], after=False, known=())
+            return TeamWish("parts", (own,)) if own is not None else None
+        if found := self._match(rf"(?P<robot>{self._names}) {self.of('modal')} {self.of('last')}", text):
+            return TeamWish("parts", (Part("named", "", self._robots[found["robot"].lower()]),))
+        if found := self._match(rf"(?P<order>.+?),? (?P<all>{self.of('all')}|{self.of('each')})", text):
+            if found["order"].lower().endswith((*_INSIDE, " for", " than", " as", " by")):
+                return None  # "say hello to everybody"
+            text = f"{found['all']} {found['order']}"
+        pieces = self._pieces(text)
+        made: list[Part] = []
+        for who, robot, order, after in pieces:
+            own = self._part(who, robot, order, after=after, known=made)
+            if own is None:
+                return None
+            made.append(own)
+        only = {part.who for part in made}
+        alone = len(made) == 1
+        if not made or (alone and only & {"named", "rest"}) or (asks and "named" in only):
+            return None
+        return TeamWish("parts", tuple(made))
+
+    def _taken_over(self, text: str) -> TeamWish | None:
+        """That one robot does what is left of another one's work."""
+        who = rf"(?:{self.of('handing')} )?(?P<robot>{self._names}),?(?: {self.of('modal')})?"
+        found = self._match(rf"{who} {self.of('takeover')}", text)
+        if found is None or found["robot"].lower() == found["of"].lower():
+            return None
+        robot, of = self._robots[found["robot"].lower()], self._robots[found["of"].lower()]
+        return TeamWish("parts", (Part("named", "", robot, of=of),))
+
+    def _pieces(self, text: str) -> list[tuple[Who, str, str, bool]]:
+        """The parts as said: who, the robot's name, the words, whether it comes after the one before."""
+        when = self.of("when")
+        subjects = "|".join(f"(?P<{who}>{self.of(who)})" for who in ("one", "rest", "each", "all"))
+        opening = (
+            rf"(?P<gap>^|[,;.]? (?:{self.of('meanwhile')} )?|[,;.] ?)"
+            rf"(?P<then>{self.of('then')},? )?(?P<when>{when},? )?"
+            rf"(?:{subjects}|(?P<named>{self._names}))(?=[,:]? \w)"
+        )
+        found = [
+            one
+            for one in re.finditer(opening, text, re.IGNORECASE)
+            if not text[: one.start()].lower().endswith(_INSIDE)
+        ]
+        if not found or found[0].start() != 0:
+            return []
+        ends = [one.start() for one in found[1:]] + [len(text)]
+        pieces: list[tuple[Who, str, str, bool]] = []
+        for one, end in zip(found, ends, strict=True):
+            who = next(name for name in _WHO if one[name])
+            order = text[one.end() : end].strip(" ,;:.")
+            waits = re.search(rf"[,;]? {when}$", f" {order}", re.IGNORECASE)
+            order = order[: waits.start() - 1].strip() if waits else order
+            pieces.append((who, one["named"] or "", order, bool(one["then"] or one["when"] or waits)))
+        return pieces
+
+    def _part(
+        self,
+        who: Who,
+        robot: str,
+        said: str,
+        *,
+        after: bool,
+        known: Sequence[Part],
+    ) -> Part | None:
+        name = self._robots[robot.lower()] if robot else ""
+        order = said.strip(" ,")
+        while found := re.match(rf"{self.of('modal')} ", order, re.IGNORECASE):
+            order = order[found.end() :]
+        if self._match(self.of("last"), order):
+            return Part(who, "", name, after)
+        order = _in_base_form(order)
+        if order and re.match(rf"{self.of('homeward')}\b", order, re.IGNORECASE) and " " in order:
+            order = f"go {order}"
+        if self._match(self.of("following"), order):
+            order = known[-1].order if known else ""
+            return Part(who, order, name, after) if order else None
+        if opens := re.match(self.of("opening"), order, re.IGNORECASE):
+            order = f"go to{order[opens.end() :]}"
+        first = order.split(" ")[0].lower()
+        acts = (first,) in lexicon().verbs and first not in lexicon().classes["being"]
+        return Part(who, order, name, after) if acts and " " in order else None
+
+
+_NUMBERS: Final = {"both": 2, "two": 2, "three": 3, "four": 4}
+_SECOND: Final = {"is": "are", "'s": " are", "has": "have", "does": "do", "was": "were"}
+_INSIDE: Final = (
+    " the", " of", " to", " at", " with", " by", " near", " for", " from", " in", " on",
+    " when", " once", " after", " as soon as",
+)  # fmt: skip
+"""Behind these a name is no subject: "go to, hm, Kim"."""
+
+
+def _shared(order: str) -> TeamWish:
+    return TeamWish("share", (Part("all", order),))
+
+
+def _in_base_form(order: str) -> str:
+    """What somebody else does, as one says it to them: "goes to the gate" is "go to the gate"."""
+    first, _, rest = order.partition(" ")
+    verbs = lexicon().verbs
+    base = next((form for form in lemmas(first) if (form,) in verbs), first)
+    return f"{base} {rest}".strip() if (first.lower(),) not in verbs else order

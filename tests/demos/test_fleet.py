@@ -1,0 +1,175 @@
+"""Three robots in one hall: one order is split, explained and approved; questions about the team."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from pathlib import Path
+
+import pytest
+
+from parley.config import SystemConfig
+from parley.demos.catalogue import load_demo
+from parley.messages import topics
+from parley.messages.chat import ChatFeedback
+from parley.messages.status import ActorStatus
+from tests.demos.house import PATIENCE_S, House, played, running
+
+ROBOTS = ("Spot", "TIAGo", "Leo")
+
+
+@asynccontextmanager
+async def hall(variant: str = "", **settings: object) -> AsyncIterator[House]:
+    demo = load_demo("fleet")
+    system = demo.system(SystemConfig(speed=None).changed(settings), demo.story.variant(variant))
+    async with running(system) as home:
+        yield home
+
+
+async def told(home: House, text: str, *robots: str) -> ChatFeedback:
+    """What is answered to something that is said to several robots."""
+    heard = len(home.observer.said)
+    home.observer.say(text, robots[0], also=robots[1:])
+
+    def replies() -> list[ChatFeedback]:
+        return [said for said in home.observer.said[heard:] if said.type in ("response", "error")]
+
+    await home.observer.until(lambda: bool(replies()), timeout_s=PATIENCE_S)
+    return replies()[0]
+
+
+def goals(home: House) -> dict[str, list[str]]:
+    """By robot the places that it is sent to."""
+    plans = {robot: home.observer.plans.get(robot) for robot in ROBOTS}
+    return {
+        robot: [str(step.action.input_parameters["target"].value) for step in plan.steps if step.for_next]
+        for robot, plan in plans.items()
+        if plan is not None
+    }
+
+
+async def test_an_order_to_all_is_split_told_in_one_and_begins_with_one_yes() -> None:
+    async with hall(approval="ask_first") as home:
+        reply = await told(home, "Check all three areas", *ROBOTS)
+        proposed = {
+            robot: [
+                call.input_parameters["inspect"].value for call in offered.steps if call.name == "Inspect"
+            ]
+            for robot, offered in home.observer.proposed.items()
+        }
+        areas = sorted(str(area) for own in proposed.values() for area in own)
+        assert areas == ["Area A", "Area B", "Area C"]  # each by one robot
+        assert len(proposed) > 1
+        assert all(robot in reply.message for robot in proposed)
+        assert "nearest to “Area" in reply.message
+        assert reply.message.endswith("Shall I?")
+        asked = next(iter(proposed))
+        await home.say("yes", asked)
+        for robot in proposed:
+            await home.state("running", robot)
+        assert sorted(goal for own in goals(home).values() for goal in own) == areas
+
+
+async def test_what_is_not_certain_is_asked_and_nothing_begins() -> None:
+    async with hall() as home:
+        asked = await told(home, "go to the pump and the gate", *ROBOTS)
+        assert asked.choices == (
+            "go to the pump and the gate, split between you",
+            "each of you: go to the pump and the gate",
+        )
+        which = await home.say("both of you go to the pump", "Leo")
+        assert "Which of us do you mean?" in which.message
+        for text in ("split the areas between you", "let Leo do that", "one of you go to the moon"):
+            assert (await home.say(text, "Spot")).message.endswith(("?", "in full."))
+        assert not any(goals(home).values())
+
+
+async def test_one_goes_the_others_wait_and_robots_are_asked_about() -> None:
+    async with hall() as home:
+        nearest = await home.say("which of you is nearest to the pump?", "Leo")
+        assert "Spot is nearest to “pump”" in nearest.message
+        await home.say("one of you go to the pump, the others wait at the charging dock", "Leo")
+        assert goals(home) == {"Spot": ["pump"], "TIAGo": ["charging dock"], "Leo": ["charging dock"]}
+        doing = (await home.say("what is Leo doing?", "Spot")).message
+        assert doing.startswith("Leo says: “")
+        assert "go to the charging dock" in doing
+        await home.say("Let TIAGo go to Area A", "Spot")
+        assert goals(home)["TIAGo"] == ["charging dock", "Area A"]
+        assert goals(home)["Spot"] == ["pump"]
+
+
+async def test_whoever_hears_that_all_shall_stop_all_do() -> None:
+    async with hall() as home:
+        await home.say("everybody back to the dock", "Spot")
+        for robot in ROBOTS:
+            await home.state("running", robot)
+        await home.say("All robots stop now", "Spot")
+        for robot in ROBOTS:
+            await home.state("paused", robot)
+
+
+async def test_who_follows_begins_when_the_other_is_there() -> None:
+    async with hall() as home:
+        await home.say("Leo goes to Area C, Spot follows when it is there", "TIAGo")
+        assert {robot for robot, own in goals(home).items() if own} == {"Leo"}
+        await home.state("running", "Spot")
+        assert {step.state for step in home.observer.plans["Leo"].steps} == {"finished"}
+        assert set(await home.done("Spot")) == {"finished"}
+
+
+async def test_a_part_that_waits_is_asked_about_when_the_other_or_it_is_stopped() -> None:
+    async with hall() as home:
+        await home.say("Leo goes to the pump, Spot follows when it is there", "TIAGo")
+        await home.say("cancel everything", "Leo")
+        await home.state("awaiting_approval", "Spot")
+        assert "Leo has not done its part" in home.observer.said[-1].message
+        await home.say("yes", "Spot")
+        await home.state("running", "Spot")
+        await home.say("Leo goes to Area C, TIAGo goes to Area A when Leo is there", "Spot")
+        await home.say("stop", "TIAGo")
+        await home.state("awaiting_approval", "TIAGo")
+        assert "told to stop before I began" in home.observer.proposed["TIAGo"].why
+        assert set(await home.done("Leo")) == {"finished"}
+        assert home.observer.state("TIAGo") == "awaiting_approval"
+
+
+async def test_a_part_that_waits_when_everything_is_shut_down_is_asked_about_afterwards(
+    tmp_path: Path,
+) -> None:
+    async with hall(data_dir=tmp_path) as home:
+        await home.say("Leo goes to the pump, Spot follows when it is there", "TIAGo")
+    async with hall(data_dir=tmp_path) as home:
+        await home.state("awaiting_approval", "Spot")
+        assert [call.name for call in home.observer.proposed["Spot"].steps] == [
+            "GetCoordinates",
+            "NavigateTo",
+        ]
+
+
+async def test_what_a_robot_leaves_undone_is_offered_to_the_best_of_the_others() -> None:
+    async with hall("blocked_doorway") as home:
+        await told(home, "Check all three areas", *ROBOTS)
+
+        def offers(robot: str) -> list[ChatFeedback]:
+            return [said for said in home.observer.said if f"what is left of {robot}’s part" in said.message]
+
+        home.observer.publish(topics.ACTOR_STATUS, ActorStatus(actor="Leo", state="leaving"))
+        await home.observer.until(lambda: bool(offers("Leo")), timeout_s=PATIENCE_S)
+        await home.observer.until(lambda: bool(offers("TIAGo")), timeout_s=PATIENCE_S)  # its way is blocked
+        assert goals(home)["TIAGo"] == ["Area A"]  # nothing is given on by itself
+        (words,) = offers("TIAGo")[0].choices
+        taker = words.split()[1]
+        await home.say(words, "TIAGo")
+        await home.observer.until(lambda: "Area A" in goals(home)[taker], timeout_s=PATIENCE_S)
+        assert set(await home.done("TIAGo")) <= {"finished", "stopped"}
+        assert set(await home.done(taker)) == {"finished"}
+        assert home.distance_m("area_a", taker) < 1.6
+
+
+@pytest.mark.parametrize(("variant", "reason"), [("other_words", ""), ("no_area", "other_reply")])
+async def test_story_holds_and_breaks_where_the_world_makes_it(
+    tmp_path: Path, variant: str, reason: str
+) -> None:
+    ended, events, _ = await played(load_demo("fleet"), tmp_path, variant, seed=3)
+    assert ended.partition(":")[0] == reason
+    assert [event for event in events if event["event"] == "failure"] == []
