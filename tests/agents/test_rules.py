@@ -15,10 +15,12 @@ from parley.config import SystemConfig
 from parley.demos.observer import Observer
 from parley.errors import FileFormatError
 from parley.messages import topics
+from parley.messages.chat import ChatAction, SystemCommand
 from parley.messages.principal import Principal, person
 from parley.messages.ros import ChatRequest
 from parley.messages.rule_requests import RuleRequest, RulesAnswer
 from parley.messages.rules import Hours
+from parley.messages.status import StopCommand
 from parley.messages.wire import decode, encode
 from parley.system import System
 from tests.demos.house import House
@@ -187,6 +189,28 @@ async def test_a_drive_stands_while_a_zone_before_it_is_asked_about(answer: str)
                 lambda: any("must not go" in said.message for said in it.observer.said[told:]), timeout_s=20
             )
             assert it.observer.state("A") == "held"
+
+
+async def test_a_robot_stands_until_the_answer_also_after_an_emergency_stop_was_released() -> None:
+    async with crew() as it:
+        await it.say("go to the green crate")
+        while it.farthest_m < 1.3:
+            await it.system.clock.sleep(0.05)
+        it.observer.say("nobody to the green crate", "A")
+        await it.question()
+        await it.system.clock.sleep(1.0)
+        for command in (StopCommand(id="s", by=KIM), StopCommand(command="reset", id="r", by=KIM)):
+            it.observer.publish(topics.STOP, command)
+        reports = it.observer.stop_reports
+        await it.observer.until(lambda: any(report.state == "reset" for report in reports))
+        stood_m = it.farthest_m
+        go_on = ChatAction(system_cmd=(SystemCommand(command="start"),), targets=("A",), by=KIM)
+        it.observer.publish(topics.CHAT_ACTION, go_on)  # a press on the page
+        await it.observer.until(lambda: it.observer.state("A") == "running")
+        await it.system.clock.sleep(5.0)
+        assert it.farthest_m == pytest.approx(stood_m)
+        await it.say("no", answer=True)
+        assert await it.done() == ["finished"] * 2
 
 
 async def test_a_rule_that_nobody_had_agreed_to_at_the_end_of_a_process_is_told_by_the_next(

@@ -478,6 +478,8 @@ class ChatInterface(Node):
         if command.command == "stop":
             for target in command.targets or self._presence.ever():
                 self._halt(target)
+        elif command.command == "reset":
+            self._holds.on_reset()
 
     def _halt(self, target: str) -> None:
         self._halts[target] = self._halts.get(target, 0) + 1

@@ -28,6 +28,8 @@ class Holds:
         self._send = send
         self._kept: dict[str, tuple[str, bool]] = {}
         """By robot: the id of its hold, and whether its plan was seen to be held since."""
+        self._asked: dict[str, StopCommand] = {}
+        """By open question: the hold until it is answered."""
 
     def begin(self, said: ChatInput, targets: tuple[str, ...], why: str = "") -> str:
         """Let robots stand while a message is read, if there is a word of stopping in it; its id, or none.
@@ -42,10 +44,18 @@ class Holds:
 
     def begin_for(self, question: str, said: ChatInput, targets: tuple[str, ...]) -> None:
         """Let robots stand until a question is answered."""
-        self._send(StopCommand(command="hold", targets=targets, id=question, by=said.who, words=said.message))
+        command = StopCommand(command="hold", targets=targets, id=question, by=said.who, words=said.message)
+        self._asked[question] = command
+        self._send(command)
+
+    def on_reset(self) -> None:
+        """An emergency stop is released, and every hold with it: who waits for an answer stands on."""
+        for command in self._asked.values():
+            self._send(command)
 
     def end(self, identity: str) -> None:
         """The message is read, or the question answered."""
+        self._asked.pop(identity, None)
         if identity:
             self._send(StopCommand(command="go_on", id=identity))
 
