@@ -1,4 +1,4 @@
-"""What engineers read on the error stream."""
+"""What is read on the error stream when code fails."""
 
 from __future__ import annotations
 
@@ -17,10 +17,11 @@ def _as_before() -> Iterator[None]:
     structlog.configure(**before)
 
 
-def test_an_error_is_logged_without_the_values_that_code_had_in_hand(
-    capsys: pytest.CaptureFixture[str],
+@pytest.mark.parametrize(("verbose", "traces"), [(False, False), (True, False), (False, True)])
+def test_an_error_is_logged_without_values_that_code_had_in_hand_and_for_operators_in_a_line(
+    capsys: pytest.CaptureFixture[str], verbose: bool, traces: bool
 ) -> None:
-    quiet_logs()
+    quiet_logs(verbose, traces=traces)
     key = "sesame-" + "open"
     try:
         raise ValueError(f"no answer to {len(key)} characters")
@@ -29,4 +30,7 @@ def test_an_error_is_logged_without_the_values_that_code_had_in_hand(
     told = capsys.readouterr().err
     assert "node=Look_1" in told
     assert "ValueError: no answer to 11 characters" in told
+    assert "test_logs.py" in told
     assert "sesame-open" not in told
+    assert ("Traceback" in told) is (verbose or traces)
+    assert verbose or traces or len(told.splitlines()) == 1

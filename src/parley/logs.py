@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import logging
 import sys
+import traceback
 from contextlib import suppress
+from pathlib import Path
+from types import TracebackType
+from typing import TextIO
 
 import structlog
 
@@ -21,20 +25,30 @@ class _Forgiving(structlog.PrintLogger):
     log = debug = info = warn = warning = fatal = failure = err = error = critical = exception = msg
 
 
-def quiet_logs(verbose: bool = False) -> None:
+def quiet_logs(verbose: bool = False, *, traces: bool = False) -> None:
     """Send logs to the error stream: warnings for engineers who ask for them, else errors only.
 
-    Where code failed is written without the values that it had in hand: they may be secret, and laying them
-    out keeps the loop for a tenth of a second and more.
+    Where code failed is one line for operators, who read the same terminal, else a trace: without the values
+    that code had in hand, which may be secret, and keep the loop for a tenth of a second to be laid out.
+
+    Args:
+        verbose: An engineer asks for all.
+        traces: A program's author reads the errors.
     """
     level = logging.INFO if verbose else logging.ERROR
     *before, _ = structlog.get_config()["processors"]
-    shown = structlog.dev.ConsoleRenderer(
-        colors=sys.stderr.isatty(), exception_formatter=structlog.dev.plain_traceback
-    )
+    formatter = structlog.dev.plain_traceback if verbose or traces else _in_a_line
+    shown = structlog.dev.ConsoleRenderer(colors=sys.stderr.isatty(), exception_formatter=formatter)
     structlog.configure(
         processors=[*before, shown],
         wrapper_class=structlog.make_filtering_bound_logger(level),
         # The stream as it is when something is logged: whoever runs commands in one process may exchange it.
         logger_factory=lambda *_: _Forgiving(sys.stderr),
     )
+
+
+def _in_a_line(out: TextIO, failed: tuple[type[BaseException], BaseException, TracebackType | None]) -> None:
+    kind, error, trace = failed
+    text = " ".join("".join(traceback.format_exception_only(kind, error)).split())
+    at = traceback.extract_tb(trace)[-1:]
+    out.write(f"  {text}" + "".join(f" ({Path(place.filename).name}, line {place.lineno})" for place in at))

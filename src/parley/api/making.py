@@ -37,7 +37,7 @@ def make_system(
         ConfigError: A setting, a file or a name is wrong, or there are no robots.
     """
     if not structlog.is_configured():
-        quiet_logs()
+        quiet_logs(traces=True)
     settings = _settings(config)
     if isinstance(language, str):
         settings = settings.changed({"language": language})
