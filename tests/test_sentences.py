@@ -105,7 +105,12 @@ def test_parts_are_said_one_by_one_and_foreign_words_stay() -> None:
         ("Which one do you mean: the box or the gate?", "Millist sa mõtled: box või gate?"),
         ("I will remember that I will go to the box.", "Jätan meelde: I will go to the box."),
         ("You told me: “I go on. Shall I?”.", "Sa ütlesid mulle: „I go on. Shall I?“."),
-        ("You asked me: “Which one?”", "You asked me: “Which one?”"),
+        ("You asked me: “Which one?”", "You asked me: „Which one?“"),
+        ("Stays out of “den”: Ada.", "Alale „den“ ei sõida: Ada."),
+        (
+            "Not faster than 0.1 m/s in “den” between 22:00 and 06:00: every robot.",
+            "Alal „den“ mitte kiiremini kui 0.1 m/s kell 22:00 kuni 06:00: kõik robotid.",
+        ),
         ("Nobody knows this sentence. I go on.", "Nobody knows this sentence. Jätkan."),
     ],
 )

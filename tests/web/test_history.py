@@ -82,6 +82,8 @@ async def test_every_round_stands_with_who_wanted_it_how_it_ended_and_what_was_s
         file = await rig.http.get(f"/api/history/file?number={first['number']}&language=et")
         assert "attachment" in file.headers["content-disposition"]
         assert "look at the &lt;box&gt;" in file.text and "<box>" not in file.text
+        assert "<li>vaata &lt;one&gt;</li>" in file.text
+        assert [one["steps"] for one in await rounds("language=et")] == [["vaata <two>"], ["vaata <one>"]]
         assert "data:image/jpeg;base64," in file.text and "Kim (leht telefonis)" in file.text
         assert (await rig.http.get("/api/history/file?number=1")).status_code == 404
 

@@ -130,6 +130,7 @@ const info: ServerInfo = {
   offline_language: true,
   modules: {},
   examples: ['Go to the door.', 'What do you see?', 'What can you do?'],
+  shown_examples: [],
   tour: [],
   addresses: [],
   unattended: 'go_on',

@@ -52,8 +52,15 @@ class _Form:
         weight = sum(map(len, literal))
         seen: set[str] = set()
         text = re.escape(pieces[0])
-        for name, behind in zip(pieces[1::2], pieces[2::2], strict=True):
-            text += rf"(?P={name})" if name in seen else rf"(?P<{name}>{_filling(template, name, behind)})"
+        for at, name in enumerate(pieces[1::2]):
+            before, behind = pieces[2 * at], pieces[2 * at + 2]
+            if (at and not before) or before[-1:].isalpha():
+                one = ".*?"  # what stands so close to what is before it may be missing
+            elif not behind and 2 * at + 3 < len(pieces):
+                one = "“[^”]+”|.+"
+            else:
+                one = _filling(template, name, behind)
+            text += rf"(?P={name})" if name in seen else rf"(?P<{name}>{one})"
             text += re.escape(behind)
             seen.add(name)
         return cls(
@@ -62,7 +69,8 @@ class _Form:
             own=own,
             other=other,
             weight=weight,
-            joins=weight < _SHORT or (weight < _TELLING and not pieces[0] and not pieces[-1].strip(".?!:")),
+            joins=(weight < _SHORT and not own)
+            or (weight < _TELLING and not pieces[0] and not pieces[-1].strip(".?!:")),
         )
 
 

@@ -254,6 +254,8 @@ class ServerInfo(WebModel):
     """chat, plan, display, map, memory, robots, incidents, log: what is switched on."""
     examples: tuple[str, ...] = ()
     """Sentences to begin with."""
+    shown_examples: tuple[str, ...] = ()
+    """The same as the reader is shown them; empty: as they are. What is said is the sentence itself."""
     tour: tuple[str, ...] = ()
     """What is said in a story that can be played on the page, one after the other."""
     addresses: tuple[str, ...] = ()

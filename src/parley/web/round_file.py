@@ -39,6 +39,12 @@ def round_file(
     def ours(text: str) -> str:
         return escape(in_language(text, language))
 
+    def speaker(entry: ChatEntry) -> str:
+        return escape(", ".join(entry.targets) if entry.who == "robot" else entry.author) or ours("Somebody")
+
+    def words(entry: ChatEntry) -> str:
+        return ours(entry.message) if entry.who == "robot" else escape(entry.message)
+
     day = datetime.fromtimestamp(told.unix_ms / 1000).astimezone()
     title = escape(told.words or ", ".join(told.steps) or told.robot)
     facts = [
@@ -47,12 +53,12 @@ def round_file(
         (sentence("Who said yes"), escape(told.approved_by)),
         (sentence("Began"), f"{day:%Y-%m-%d %H:%M:%S}"),
         (sentence("Ended"), _clock(told.ended_unix_ms)),
-        (sentence("How it ended"), f"{ours(sentence(_STATES[told.state]))} {escape(told.reason)}".strip()),
+        (sentence("How it ended"), f"{ours(sentence(_STATES[told.state]))} {ours(told.reason)}".strip()),
     ]
     rows = "".join(f"<dt>{ours(name)}</dt><dd>{value}</dd>" for name, value in facts if value)
-    steps = "".join(f"<li>{escape(step)}</li>" for step in told.steps)
+    steps = "".join(f"<li>{ours(step)}</li>" for step in told.steps)
     lines = "".join(
-        f"<p><time>{_clock(entry.unix_ms)}</time> <b>{_speaker(entry)}</b>: {escape(entry.message)}</p>"
+        f"<p><time>{_clock(entry.unix_ms)}</time> <b>{speaker(entry)}</b>: {words(entry)}</p>"
         for entry in said
         if entry.message
     )
@@ -77,7 +83,3 @@ def _part(title: str, body: str) -> str:
 
 def _clock(unix_ms: int) -> str:
     return f"{datetime.fromtimestamp(unix_ms / 1000).astimezone():%H:%M:%S}" if unix_ms else ""
-
-
-def _speaker(entry: ChatEntry) -> str:
-    return escape((entry.author or "–") if entry.who == "operator" else ", ".join(entry.targets))

@@ -96,8 +96,8 @@ def _round(
         unix_ms=start.unix_ms,
         ended_unix_ms=end.unix_ms if end else 0,
         state=_state(end, is_running),
-        steps=tuple(map(str, steps)) if isinstance(steps, list) else (),
-        reason=end.reason if end else "",
+        steps=tuple(in_language(str(step), language) for step in steps) if isinstance(steps, list) else (),
+        reason=in_language(end.reason, language) if end else "",
     )
 
 

@@ -42,8 +42,9 @@ def _shown(data: Any, language: SpokenLanguage) -> Any:
     if not isinstance(data, dict) or data.get("who") == "operator":
         return data
     shown = {name: value if name in _KEPT else _field(name, value, language) for name, value in data.items()}
-    if data.get("who") == "robot":
-        shown["shown_choices"] = [in_language(choice, language) for choice in data["choices"]]
+    for said in ("choices", "examples"):
+        if f"shown_{said}" in data:
+            shown[f"shown_{said}"] = [in_language(text, language) for text in data[said]]
     return shown
 
 

@@ -61,7 +61,8 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
   };
 
   const lost = useLive((live) => live.connection === 'lost' && live.world.run === '');
-  const none = lost ? t('common:offline') : t('writeNobody');
+  const known = useLive((live) => live.world.run !== '');
+  const none = lost ? t('common:offline') : t(known ? 'writeNobody' : 'common:loading');
   const label = nobody ? none : t('writeTo', { names: nameList(chosen, i18n.language) });
   useGrowing(input, draft.text, label);
   return (
