@@ -116,6 +116,20 @@ def test_an_action_of_which_only_the_name_is_known_is_done_where_all_of_its_name
     assert done(decide(message, NAMED)) == wanted
 
 
+@pytest.mark.parametrize(
+    ("message", "wanted"),
+    [
+        ("honk the horn twice", ["honk", "honk"]),
+        ("go to the pump and honk the horn twice", ["drive_to", "honk", "honk"]),
+        ("go to the pump and take a picture three times", ["drive_to", "snap", "snap", "snap"]),
+    ],
+)
+def test_how_often_counts_for_what_is_done_there_and_for_no_way(message: str, wanted: list[str]) -> None:
+    honk = ActionInfo(name="honk", description="Honk the horn.")
+    decision = ENGINE.decide(situation(message, catalogue=(*CATALOGUE, honk)))
+    assert [name for name, _ in done(decision)] == wanted
+
+
 def test_no_place_is_given_to_an_input_that_takes_a_number() -> None:
     numbered = (
         ActionInfo(name="a", inputs={"x": "number"}, description="Drive to a place.", effects=("moves",)),

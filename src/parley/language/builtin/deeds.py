@@ -36,7 +36,9 @@ class Builder(Ways):
         """The deeds of a wish, or a question."""
         self.whole = None
         if wish.own is not None:
-            return self._logic(wish) or self._owned(wish, wish.own)
+            often = self._logic(wish) or self.times(wish)
+            made = often if isinstance(often, Ask) else self._owned(wish, wish.own)
+            return made if isinstance(made, Ask) or isinstance(often, Ask) else made * often
         times = self._strange(wish) or self.times(wish)
         if isinstance(times, Ask):
             return times

@@ -87,7 +87,8 @@ def fill(
         slots: The inputs.
         lexicon: Closed classes.
     """
-    given = _parted([filler for filler in fillers if filler.role not in _LOGIC], slots)
+    logical = _LOGIC if slots.counting else _LOGIC | {"O"}
+    given = _parted([filler for filler in fillers if filler.role not in logical], slots)
     names = list(slots.parameters)
     fits = {
         (at, name): _fit(filler, name, slots, lexicon, at)
@@ -115,7 +116,7 @@ def fill(
         for at, word in zip(range(filler.start, filler.end), filler.words, strict=False)
     }
     loose = [at for at in content if at not in taken and not _is_said(words.get(at, ""), slots, lexicon)]
-    logic = {at for filler in fillers if filler.role in _LOGIC for at in range(filler.start, filler.end)}
+    logic = {at for filler in fillers if filler.role in logical for at in range(filler.start, filler.end)}
     missing = tuple(name for name in names if name not in filled and name not in slots.optional)
     return Filling(tuple(found.values()), missing, not [at for at in loose if at not in logic])
 

@@ -329,7 +329,9 @@ def _replaced(
     wishes, loose, left = list(reading.wishes), list(reading.loose), list(reading.left_over)
     for clause, own in meant:
         before = [wish for wish in wishes if clause.start <= wish.start < clause.end]
-        logic = tuple(f for f in clause.fillers if f.role in _LOGIC)
+        logic = tuple(
+            f for f in clause.fillers if f.role in _LOGIC or (f.role == "O" and not own.slots.counting)
+        )
         wishes = [wish for wish in wishes if wish not in before]
         loose = [f for f in loose if not clause.start <= f.start < clause.end]
         for token in parse.tokens[clause.start : clause.end]:

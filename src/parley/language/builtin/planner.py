@@ -19,6 +19,9 @@ __all__ = ["NO_DEED", "Planner", "contradicted", "orders_of"]
 
 NO_DEED = frozenset({"BELOC", "BECAT", "REMEMBER", "FORGET"})
 _NO_ORDER = frozenset({"told", "social", "need"})
+_WHO_SAYS = frozenset({"i", "we", "he", "she", "they", "somebody", "someone"})
+_IN_PLACE = frozenset({"SAY", "PHOTO", "DO", "WAIT", "TURN"})
+"""What is done so often by itself, wherever that is."""
 _SPOKEN_OF = frozenset({"it", "them", "there", "they", "each", "one", "these", "those"})
 
 
@@ -170,6 +173,8 @@ class Planner:
         often = {wish.all("O") for wish in wishes}
         if len(wishes) < 2 or often == {()}:
             return wishes, 1
+        if all(wish.frame in _IN_PLACE for wish in wishes if wish.has("O")):
+            return wishes, 1
         times = self.builder.times(wishes[0])
         if len(often) > 1 or isinstance(times, Ask):
             return times if isinstance(times, Ask) else Ask("What of it shall I do so often?")
@@ -190,6 +195,8 @@ class Planner:
                 return Reading(
                     frozenset({"order"}), (Wish("LOOK", done, words[done], (thing,), 1.0, "agrees"),), (), ()
                 )
+            if words[:1] and words[0] in _WHO_SAYS:  # "before I tell you" names no place
+                return replace(reading, left_over=words)
             size = next((at + 1 for at in reversed(range(len(words))) if words[at].isalnum()), 0)
             place = Filler("G", 0, size, max(size - 1, 0), words[:size])
             wishes = (Wish("GO", 0, "", (place,), 1.0, "agrees"),) if size else ()
@@ -251,14 +258,10 @@ class Planner:
             words = tuple(word for word in limit.low if word.isalnum() or "-" in word)
             match limit.clause.link:
                 case "times":
-                    count = 2 if words == ("twice",) else 3 if words == ("thrice",) else 0
-                    amount = amount_of(words[:1])
-                    times = count or (int(amount.value) if amount else 0)
-                    if not 1 <= times <= 10:
-                        return Ask(f"I cannot do that {limit.text} on end. How many times shall I do it?")
-                    own = wishes[0].own.done(times) if len(wishes) == 1 and wishes[0].own else None
-                    if own is not None:
-                        wishes, times = (replace(wishes[0], own=own),), 1
+                    often = self._so_often(limit.text, words, wishes)
+                    if isinstance(often, Ask):
+                        return often
+                    wishes, times = often
                 case "delay" if any(wish.frame == "SAY" for wish in wishes):
                     return Ask(f"Shall I say it {limit.text}, or is that part of what I say?")
                 case "delay":
@@ -283,6 +286,24 @@ class Planner:
                 case _:
                     return Ask(f"I cannot tell by myself when “{limit.text}” is. What shall I do now?")
         return wishes, times, before
+
+    @staticmethod
+    def _so_often(
+        text: str, words: tuple[str, ...], wishes: tuple[Wish, ...]
+    ) -> tuple[tuple[Wish, ...], int] | Ask:
+        """Wishes that are done so often: all of them, or the last alone where that needs no way."""
+        count = 2 if words == ("twice",) else 3 if words == ("thrice",) else 0
+        amount = amount_of(words[:1])
+        times = count or (int(amount.value) if amount else 0)
+        if not 1 <= times <= 10:
+            return Ask(f"I cannot do that {text} on end. How many times shall I do it?")
+        own = wishes[0].own.done(times) if len(wishes) == 1 and wishes[0].own else None
+        if own is not None:
+            return (replace(wishes[0], own=own),), 1
+        if len({wish.frame for wish in wishes}) > 1 and wishes[-1].frame in _IN_PLACE:
+            often = Filler("O", 0, len(words), 0, words)  # "go there and honk twice"
+            return (*wishes[:-1], replace(wishes[-1], fillers=(*wishes[-1].fillers, often))), 1
+        return wishes, times
 
     def _excluded(self, limit: Part, wishes: Sequence[Wish]) -> bool:
         """Take up what is not wanted: a part of a set, another thing, another deed."""
