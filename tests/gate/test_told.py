@@ -160,6 +160,7 @@ def test_a_zone_that_was_drawn_is_a_place_too_and_ids_stay_apart() -> None:
         ("don't go into the storeroom today, it is wet", "storeroom"),
         ("never drive into the storeroom because it is wet", "storeroom"),
         ("nobody goes into the storeroom until the floor is dry", "storeroom"),
+        ("nobody goes into the storeroom before I say so", "storeroom"),
         ("keep out of the storeroom while they are painting", "storeroom"),
         ("do not go to the storeroom for now", "storeroom"),
         ("don't worry", ""),

@@ -151,7 +151,10 @@ _DONT: Final = re.compile(
     r"^(?:(?:you )?(?:don't|do not)|stop) (?=(?:go|drive|come|move|going|driving|enter)\b)"
 )
 _REASON: Final = re.compile(r"(?:\s*(?:,|;|:|\.|\s-|–)\s*|\s+(?:because|since|as|sest)\s+).*$")
-_UNTIL: Final = re.compile(r",? (?:until|till|while|whilst|as long as|so long as|(?:seni )?kuni) .+$")
+_UNTIL: Final = re.compile(
+    r",? (?:until|till|while|whilst|as long as|so long as|"
+    r"(?:before|unless) (?:i|we|somebody|someone|he|she|they)|(?:seni )?kuni) .+$"
+)
 _FOR_NOW: Final = re.compile(
     r"(?: (?:today|tonight|for now|for the moment|at the moment|right now|now|any ?more|until further notice|"
     r"this (?:morning|afternoon|evening)|for a while|please|täna|praegu))+$"
