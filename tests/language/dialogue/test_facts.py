@@ -179,6 +179,11 @@ async def test_each_of_two_facts_is_kept_with_whom_it_is_about_and_none_of_whom_
     assert stored(await ENGINE.interpret(situation("here they are, on your tray"))) == []
 
 
+async def test_a_fact_is_kept_as_the_whole_sentence() -> None:
+    fact = "Ada hides three spoons in her bag"
+    assert stored(await ENGINE.interpret(situation(f"{fact}."))) == [fact]
+
+
 async def test_what_was_forgotten_is_not_told_from_the_conversation_either() -> None:
     past = (
         Turn("operator", "remember that the pump was mended"),

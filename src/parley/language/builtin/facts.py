@@ -49,14 +49,31 @@ def told_of(reading: Reading, message: str, starts: Sequence[int], lexicon: Lexi
             continue  # nobody knows later who or what was meant
         start = min(starts[min([wish.start, *(filler.start for filler in wish.fillers)])], len(message))
         last = max(filler.end for filler in wish.fillers)
-        text = message[start : starts[last]] if last < len(starts) else message[start:]
-        text = text.strip().rstrip(".,;!?").removesuffix(" and").strip()
+        text = _whole(message, start, starts[last] if last < len(starts) else len(message), lexicon)
         key = "_".join(re.findall(r"\w+", " ".join(name)))[:150]
         if key and text:
             plain = re.search(re.escape(" ".join(name)), message, re.IGNORECASE)
             shown = plain[0] if plain else " ".join(name)
             found.append(Told(f"{key}_location", _quoted(text), f"Where {with_article(shown)} is"))
     return tuple(found)
+
+
+_END = re.compile(r"[.,;:!?]|\b(?:and|but|so|because|or|then|please)\b|$", re.IGNORECASE)
+_LEADING_IN = frozenset(
+    {"remember", "note", "mind", "think", "believe", "guess", "yes", "no", "and", "but", "or"}
+)
+
+
+def _whole(message: str, start: int, end: int, lexicon: Lexicon) -> str:
+    """All that a sentence says in which a fact stands: "bay 6 belongs to the guard", to its end."""
+    while before := re.search(r"(?:^|[\s,;:.!?])([\w'’-]+)\s+$", message[:start]):
+        word = before[1].lower()
+        if word != "i" and word in lexicon.classes["small"] | lexicon.classes["asking"] | _LEADING_IN:
+            break
+        start = before.start(1)
+    stop = _END.search(message, len(message[:end].rstrip()))
+    text = message[start : stop.start()] if stop is not None else message[start:]
+    return text.strip().rstrip(".,;!?").removesuffix(" and").strip()
 
 
 def rule_of(parts: Sequence[Part], message: str, lexicon: Lexicon) -> Told | None:
