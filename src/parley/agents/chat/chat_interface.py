@@ -36,7 +36,6 @@ from parley.gate.table import Effect, verdict
 from parley.language.base import Language
 from parley.language.control import Control, control_of
 from parley.language.dialogue.taught import taught_in, with_names
-from parley.language.dialogue.team import is_to_all
 from parley.language.stop_words import calls_to_stop, is_no, only_takes_back, opens_with_no
 from parley.memory.client import recall
 from parley.messages import topics
@@ -169,7 +168,7 @@ class ChatInterface(Node):
             self._holds.end(held)
 
     def _read(self, said: ChatInput) -> None:
-        if not self._seen_ids.is_new(said.id) or self._stops_all(said):
+        if not self._seen_ids.is_new(said.id):
             return
         if problem := texts.unreadable(said.message, bare=bool(said.images)):
             self._say(said.targets, problem, "error", said.id)
@@ -212,17 +211,6 @@ class ChatInterface(Node):
                 hear.append((target, question))
         self._hear_all(hear, said)
         self._questions.on_input(said)
-
-    def _stops_all(self, said: ChatInput) -> bool:
-        """Whether somebody calls all robots to stop, whichever of them hears it; all of them do then."""
-        control = control_of(said.message, self._presence.names())
-        halts = control in _HALTING or (control is None and calls_to_stop(said.message))
-        if not (halts and is_to_all(said.message)):
-            return False
-        for target in self._presence.ever():
-            self._control(target, control or "stop", said, more=control is None)
-        self._questions.on_input(said)
-        return True
 
     def _hear_all(self, hear: Sequence[tuple[str, ChatFeedback | None]], said: ChatInput) -> None:
         """Have something understood by those it was said to, each with the question that it answers."""

@@ -19,7 +19,7 @@ from parley.language.dialogue.questions import plain, question_of
 from parley.language.lexicon import load_data
 from parley.language.stop_words import calls_to_stop
 
-__all__ = ["Part", "TeamWish", "is_in_turn", "is_of_several", "is_to_all", "team_wish"]
+__all__ = ["Part", "TeamWish", "is_in_turn", "is_of_several", "team_wish"]
 
 
 Who = Literal["one", "rest", "all", "each", "named"]
@@ -74,14 +74,6 @@ def is_of_several(order: str) -> bool:
 def is_in_turn(order: str) -> bool:
     """Whether words say in which order things are to be done, so that they are not shared."""
     return _IN_TURN.search(order) is not None
-
-
-def is_to_all(message: str) -> bool:
-    """Whether a message calls all robots, before or behind what it says."""
-    words = _Words(())
-    called = rf"(?:{words.of('all')}|{words.of('each')})"
-    text = words.begun(re.sub(r"[^\w']+", " ", message.replace("’", "'")).strip())
-    return re.search(rf"^{called}\b|\b{called}$", text, re.IGNORECASE) is not None
 
 
 def team_wish(message: str, robots: Sequence[str]) -> TeamWish | None:
