@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import signal
 import sys
 from collections.abc import AsyncIterator
@@ -13,10 +14,12 @@ from pathlib import Path
 from parley.clock import WallClock
 from parley.config import NetworkSettings, SystemConfig
 from parley.demos.observer import Observer
+from parley.errors import TransportError
 from parley.messages import topics
-from parley.messages.ros import String
+from parley.messages.map import GetMap
+from parley.messages.ros import ChatRequest, String
 from parley.messages.status import ActorStatus
-from parley.messages.wire import decode
+from parley.messages.wire import decode, encode
 from parley.network import transport_of
 from parley.transport.base import Transport
 from tests.transport.backends import free_port
@@ -33,16 +36,20 @@ class Parts:
     settings: Path
     transport: Transport
     operator: Observer
+    port: int
+    """Of the page."""
     processes: dict[str, asyncio.subprocess.Process] = field(default_factory=dict)
     statuses: dict[str, ActorStatus] = field(default_factory=dict)
     """The newest heartbeat of each robot."""
+    beat: asyncio.Event = field(default_factory=asyncio.Event)
+    """Set with each."""
 
     async def start(self, part: str, *options: str) -> None:
         """Start a part anew; `engine` or a node."""
         words = {
             "engine": ["engine", "--world", "nursing-home", "--data", str(self.folder / "engine")],
             "agents": ["node", "agents", "--data", str(self.folder / "agents")],
-            "web": ["node", "web", "--no-open", "--port", "0", "--data", str(self.folder / "web")],
+            "web": ["node", "web", "--no-open", "--port", str(self.port), "--data", str(self.folder / "web")],
         }[part]
         self.processes[part] = await asyncio.create_subprocess_exec(
             sys.executable, "-m", "parley", *words, "--config", str(self.settings), *options,
@@ -61,6 +68,24 @@ class Parts:
     def thaw(self, part: str) -> None:
         """It goes on."""
         self.processes[part].send_signal(signal.SIGCONT)
+
+    async def until_met(self) -> None:
+        """Wait until those who plan know the robot."""
+        known = "{}"
+        async with asyncio.timeout(60.0):
+            while known == "{}":
+                await asyncio.sleep(0.1)
+                with contextlib.suppress(TransportError):
+                    asked = ChatRequest(encode(GetMap(robot=ROBOT)))
+                    known = (await self.transport.call(topics.GET_MAP, asked, timeout_s=5.0)).response
+            await self.settled()
+
+    async def settled(self) -> None:
+        """Wait until everybody has heard how the robot fares now: it says so every second."""
+        for _ in range(2):
+            self.beat.clear()
+            async with asyncio.timeout(10.0):
+                await self.beat.wait()
 
     def begun(self, action: str) -> int:
         """How often an action began."""
@@ -87,12 +112,13 @@ async def parts(folder: Path, *names: str) -> AsyncIterator[Parts]:
     network = NetworkSettings(domain=DOMAIN, listen=(at,), interface="")
     async with AsyncExitStack() as stack:
         transport = await stack.enter_async_context(transport_of(SystemConfig(network=network)))
-        operator = await stack.enter_async_context(Observer(transport, WallClock()))
-        made = Parts(folder, settings, transport, operator)
+        operator = await stack.enter_async_context(Observer(transport, WallClock(), print))
+        made = Parts(folder, settings, transport, operator, free_port())
 
         def on_status(message: String) -> None:
             status = decode(ActorStatus, message.data)
             made.statuses[status.actor] = status
+            made.beat.set()
 
         await transport.subscribe(topics.ACTOR_STATUS, on_status)
         try:
@@ -101,11 +127,7 @@ async def parts(folder: Path, *names: str) -> AsyncIterator[Parts]:
             if "engine" in names:
                 await operator.until(lambda: ROBOT in operator.robots)
             if "agents" in names:
-                await operator.until(
-                    lambda: any(
-                        end.name == "/parley/rules" and end.role == "server" for end in transport.endpoints()
-                    )
-                )
+                await made.until_met()
             yield made
         finally:
             for process in made.processes.values():

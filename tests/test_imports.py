@@ -28,6 +28,8 @@ LAYERS: tuple[frozenset[str], ...] = (
             "system",
             "engines",
             "deployment",
+            "findings",
+            "network_check",
             "nodes",
             "api",
             "demos",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import signal
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 from typer.testing import CliRunner
@@ -16,9 +17,11 @@ from parley.demos.observer import Observer
 from parley.errors import ConfigError
 from parley.messages import topics
 from parley.messages.principal import person
-from parley.messages.status import StopCommand
+from parley.messages.ros import ChatRequest, ChatResponse
+from parley.messages.status import ActorStatus, StopCommand
 from parley.messages.wire import to_string
 from parley.network import transport_of
+from parley.network_check import examine_network
 from parley.transport.local import LocalTransport
 from tests.transport.backends import free_port, until
 
@@ -71,3 +74,36 @@ async def test_robots_of_another_process_are_talked_to_and_stopped(tmp_path: Pat
         if robots.returncode is None:
             robots.send_signal(signal.SIGKILL)
         await robots.wait()
+
+
+async def test_the_doctor_says_who_is_there_which_address_is_silent_and_whose_clock_is_wrong() -> None:
+    at, silent = (f"tcp/127.0.0.1:{free_port()}" for _ in range(2))
+    here = NetworkSettings(listen=(at,), interface="")
+    async with transport_of(SystemConfig(network=here)) as transport:
+        await transport.serve(topics.RULES, _nothing)
+        heartbeat = transport.publisher(topics.ACTOR_STATUS)
+
+        def beat() -> None:
+            status = ActorStatus(actor="A", unix_ms=WallClock().unix_ms() - 3_600_000)
+            heartbeat.publish(to_string(status))
+
+        beats = asyncio.create_task(_every(0.2, beat))
+        network = NetworkSettings(listen=(), connect=(at, silent), interface="")
+        found = await asyncio.to_thread(lambda: list(examine_network(network)))
+        beats.cancel()
+    assert [(item.subject, item.state) for item in found] == [
+        ("network", "ok"), ("network", "wrong"), ("network", "ok"), ("clocks", "wrong"),
+    ]  # fmt: skip
+    assert silent in found[1].text
+    assert "robots: A; who plans: there" in found[2].text
+    assert "-3600 s" in found[3].text, found[3].text
+
+
+async def _nothing(request: ChatRequest) -> ChatResponse:
+    return ChatResponse()
+
+
+async def _every(seconds: float, do: Callable[[], None]) -> None:
+    while True:
+        do()
+        await asyncio.sleep(seconds)

@@ -35,6 +35,7 @@ async def test_each_half_is_killed_under_way_and_nothing_is_lost_or_done_twice(t
         assert system.statuses[ROBOT].state == "stopped", "an engine keeps who was stopped"
         stops.publish(to_string(StopCommand(command="reset", by=person())))
         await operator.until(lambda: any(report.state == "reset" for report in operator.stop_reports))
+        await system.settled()
         assert system.begun("NavigateTo") == 1, "nothing begins by itself"
 
         operator.say("carry on", ROBOT)

@@ -19,17 +19,17 @@ import sys
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final, Literal
+from typing import Final
 from urllib.parse import SplitResult, urlsplit
 
-from parley.config import EmbeddingSettings
+from parley.config import EmbeddingSettings, NetworkSettings
 from parley.errors import ConfigError
 from parley.extras import model_extra, needs
+from parley.findings import Finding
 from parley.memory.embedder import configured_embedder
+from parley.network_check import examine_network
 
 __all__ = ["Finding", "Subject", "examine"]
-
-State = Literal["ok", "missing", "wrong", "unused"]
 
 PYTHON: Final = (3, 11)
 NODE: Final = (20, 19)
@@ -40,24 +40,6 @@ TIMEOUT_S: Final = 3.0
 BROWSERS: Final = (
     "xdg-open", "open", "firefox", "chromium", "chromium-browser", "google-chrome", "microsoft-edge",
 )  # fmt: skip
-
-
-@dataclass(frozen=True, slots=True)
-class Finding:
-    """What one check found."""
-
-    subject: str
-    state: State
-    """`missing` and `wrong` need a person; `unused` is absent, and only some uses need it."""
-    text: str
-    remedy: str = ""
-    needed: bool = False
-    """Whether Parley does not work without it."""
-
-    @property
-    def hinders(self) -> bool:
-        """Whether something has to be done before Parley works."""
-        return self.needed and self.state in ("missing", "wrong")
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,6 +60,7 @@ class Subject:
     memory: Path | None = None
     """The file with the memories, if not `memory.db` in `data_dir`."""
     embeddings: EmbeddingSettings | None = None
+    network: NetworkSettings | None = None
 
 
 def examine(subject: Subject) -> Iterable[Finding]:
@@ -88,6 +71,7 @@ def examine(subject: Subject) -> Iterable[Finding]:
     )  # fmt: skip
     for check in checks:
         yield check(subject)
+    yield from examine_network(subject.network)
 
 
 def _python(_: Subject) -> Finding:

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from contextlib import AsyncExitStack
 from dataclasses import dataclass
 from functools import partial
-from typing import Literal, Self
+from typing import Final, Literal, Self
 
 from parley.actions.context import ActionContext
 from parley.agents.display.camera_feed import CameraFeed
@@ -46,6 +46,8 @@ from parley.world.telling import floor_of, told_objects
 from parley.world.whereabouts import Footprint
 
 __all__ = ["Engines", "WorldView"]
+
+GREETS_AFTER_S: Final = 0.2
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,6 +136,10 @@ class Engines:
         self.journal: Journal | None = None
         """What they do is written down in; there once it is open."""
         self._sites: dict[str, tuple[RobotSite, topics.Topic[ros.String]]] = {}
+        self._engines: list[ActionEngine] = []
+        self._heard_by = 0
+        """How many in other processes listen to heartbeats."""
+        self._greeting: asyncio.TimerHandle | None = None
         self._notifier = Notifier(transport)
         self._stack = AsyncExitStack()
 
@@ -191,6 +197,26 @@ class Engines:
             await self._open_robot(stack, name, self.journal)
         stack.push_async_callback((await self.journal.heed_plans(self._transport)).close)
         stack.push_async_callback(self.journal.end)
+        stack.callback(self._engines.clear)
+        stack.callback(self._transport.on_endpoints_changed(self._greet))
+
+    def _greet(self) -> None:
+        """Whoever comes need not wait for a heartbeat to know who is there."""
+        name = topics.ACTOR_STATUS.name
+        ends = self._transport.endpoints()
+        before, self._heard_by = (
+            self._heard_by,
+            sum(end.elsewhere and end.role == "subscription" and end.name == name for end in ends),
+        )
+        if self._heard_by > before:  # they come one by one, and the last one is to hear it too
+            if self._greeting is not None:
+                self._greeting.cancel()
+            self._greeting = asyncio.get_running_loop().call_later(GREETS_AFTER_S, self._beat)
+
+    def _beat(self) -> None:
+        self._greeting = None
+        for engine in self._engines:
+            engine.beat()
 
     def _tell_unusable(self, problem: str) -> None:
         self.tell(f"An action cannot be used: {problem}", "error")
@@ -245,6 +271,7 @@ class Engines:
             )
         )
         unfinished.take_up(engine)
+        self._engines.append(engine)
         if "camera" in robot.capabilities:
             await enter(CameraFeed(transport, robot, self._config.camera_hz))
         areas = view.objects.areas

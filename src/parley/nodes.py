@@ -152,10 +152,11 @@ class Nodes:
             begin_for=self.rules.act_for,
             met=self._on_met,
         )
-        await enter(self._speaking(planner))
         rules = RuleTalk(self.rules, keeper, self.sites.areas)
         incidents = await enter(await IncidentStore.open(config.incidents_file or ":memory:", clock))
         await self._open_talk(stack, rules, incidents)
+        # Only now: whoever is told a plan may answer at once, and has to be heard.
+        await enter(self._speaking(planner))
         await enter(self._speaking(Lookout(transport, clock)))
         absent = UnattendedPlans(transport, clock, config.unattended, config.unattended_after_s)
         await enter(self._speaking(absent))

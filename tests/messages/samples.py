@@ -272,6 +272,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "graphs": {"g": "RUNNING"},
         "catalogue": [ACTION_INFO],
         "map_name": "hall",
+        "unix_ms": 1,
     },
     status.GraphEvent: {
         "actor": "A",

@@ -51,6 +51,7 @@ def doctor(
         base_url=chosen.model.base_url,
         memory=chosen.memory_file,
         embeddings=chosen.embeddings,
+        network=chosen.network,
     )
     hindered = False
     for finding in (*broken, *examine(subject)):

@@ -196,6 +196,7 @@ class ActionEngine:
             self._robot,
             lambda status: self._publish_payload(topics.ACTOR_STATUS, status),
             heartbeat_s=self._heartbeat_s,
+            unix_ms=self._clock.unix_ms,
         )
         self._presence.open()
         stack.push_async_callback(self._presence.close)
@@ -358,6 +359,10 @@ class ActionEngine:
             problem = Problem("", "others took part, and have gone on without it", "start it anew", "shared")
             raise GraphRefusedError(left.graph.name, [problem])
         self.runs.restore(left.saved)
+
+    def beat(self) -> None:
+        """Send a heartbeat now."""
+        self._status_changed()
 
     def _start(self, message: ros.UmrfGraphStart, raw: Raw) -> None:
         if not message.umrf_graph_json:

@@ -41,6 +41,7 @@ class Presence:
         robot: Its robot, if it has one.
         publish: Where the status goes.
         heartbeat_s: Wall time between two unchanged ones.
+        unix_ms: Tells what the clock shows.
     """
 
     def __init__(
@@ -52,9 +53,11 @@ class Presence:
         publish: Callable[[ActorStatus], None],
         *,
         heartbeat_s: float,
+        unix_ms: Callable[[], int] = lambda: 0,
     ) -> None:
         self._actor, self._runs, self._catalogue = actor, runs, catalogue
         self._robot, self._publish, self._heartbeat_s = robot, publish, heartbeat_s
+        self._unix_ms = unix_ms
         self._sequence = 0
         self._changed = asyncio.Event()
         self._task: asyncio.Task[None] | None = None
@@ -102,6 +105,7 @@ class Presence:
                 battery=self._robot.battery() if self._robot is not None else None,
                 graphs={run.name: run.state.value for run in self._runs.all},
                 catalogue=tuple(self._catalogue()),
+                unix_ms=self._unix_ms(),
             )
         )
         self._sequence += 1

@@ -115,6 +115,8 @@ class ActorStatus(Payload):
     catalogue: tuple[ActionInfo, ...] = ()
     """Sent with every heartbeat, so that who comes late knows it too."""
     map_name: str = ""
+    unix_ms: int = 0
+    """What the clock of its machine showed."""
 
 
 class GraphEvent(Payload):

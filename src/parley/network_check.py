@@ -1,0 +1,83 @@
+"""What `parley doctor` finds on the network that the settings name."""
+
+from __future__ import annotations
+
+import asyncio
+import socket
+from collections.abc import Iterable
+from typing import Final
+
+from parley.clock import WallClock
+from parley.config import NetworkSettings, SystemConfig
+from parley.errors import InvalidMessageError, MissingExtraError, ParleyError
+from parley.findings import Finding
+from parley.messages import topics
+from parley.messages.ros import String
+from parley.messages.status import ActorStatus
+from parley.messages.wire import decode
+from parley.network import transport_of
+
+__all__ = ["examine_network"]
+
+LISTENS_S: Final = 3.0
+"""Robots tell every second that they are there."""
+APART_MS: Final = 1000
+"""Clocks that differ by less do no harm."""
+CONNECTS_WITHIN_S: Final = 2.0
+_MEND: Final = "Start it there, or mend the address, or let it through the firewall."
+
+
+def examine_network(network: NetworkSettings | None) -> Iterable[Finding]:
+    """Look who is there; nothing of it is needed."""
+    if network is None:
+        yield Finding("network", "unused", "The settings name none; all is in one process.")
+        return
+    for address in network.connect:
+        yield _address(address)
+    try:
+        yield from asyncio.run(_listen(network))
+    except MissingExtraError as missing:
+        yield Finding("network", "missing", str(missing))
+    except ParleyError as error:
+        yield Finding("network", "wrong", str(error), "Start the router first, or mend `connect`.")
+
+
+def _address(address: str) -> Finding:
+    host, _, port = address.partition("/")[2].rpartition(":")
+    try:
+        with socket.create_connection((host.strip("[]"), int(port)), CONNECTS_WITHIN_S):
+            return Finding("network", "ok", f"{address} answers")
+    except (OSError, ValueError) as error:
+        return Finding("network", "wrong", f"{address} does not answer: {error}", _MEND)
+
+
+async def _listen(network: NetworkSettings) -> list[Finding]:
+    clock = WallClock()
+    apart_ms: dict[str, int] = {}
+
+    def heard(message: String) -> None:
+        try:
+            status = decode(ActorStatus, message.data)
+        except InvalidMessageError:
+            return
+        apart_ms[status.actor] = status.unix_ms - clock.unix_ms() if status.unix_ms else 0
+
+    async with transport_of(SystemConfig(network=network), node="parley_doctor") as transport:
+        await transport.subscribe(topics.ACTOR_STATUS, heard)
+        await asyncio.sleep(LISTENS_S)
+        others = [end for end in transport.endpoints() if end.elsewhere]
+    plans = any(end.name == topics.RULES.name and end.role == "server" for end in others)
+    pages = sum(end.name == topics.ATTENDANCE.name and end.role == "publisher" for end in others)
+    if not others:
+        text = f"nobody was there in {LISTENS_S:g} s"
+        return [
+            Finding("network", "missing", text, "Look at domain, interface and tls: all parts need the same.")
+        ]
+    robots = ", ".join(sorted(apart_ms)) or "none"
+    told = f"robots: {robots}; who plans: {'there' if plans else 'not there'}; pages: {pages}"
+    found = [Finding("network", "ok" if plans and apart_ms else "missing", told)]
+    for robot, difference_ms in sorted(apart_ms.items()):
+        if abs(difference_ms) > APART_MS:
+            text = f"the clock of {robot} is {difference_ms / 1000:+.0f} s from this one"
+            found.append(Finding("clocks", "wrong", text, "Let both set their clocks by the network (NTP)."))
+    return found
