@@ -43,7 +43,7 @@ class Builder(Ways):
         times = self._strange(wish) or self.times(wish)
         if isinstance(times, Ask):
             return times
-        wish = self._placed(wish)
+        wish = self._placed(self._told_apart(wish))
         values = self._values(wish)
         if isinstance(values, Ask):
             return values
@@ -76,6 +76,18 @@ class Builder(Ways):
             {*thing.class_name.split(), *thing.description.lower().split()} if thing is not None else set()
         )
         return any(is_word_for(word, "place") for word in words)
+
+    def _told_apart(self, wish: Wish) -> Wish:
+        """With the place behind a thing as a part of its name, where that says which of several is meant."""
+        thing, place = wish.one("T"), wish.one("L")
+        if thing is None or place is None or thing.end != place.start:
+            return wish
+        words, objects = (*thing.words, *place.words), self.situation.objects
+        alone = link(thing.words, thing.head, objects, self.lexicon)
+        if alone.kind != "several" or link(words, thing.head, objects, self.lexicon).kind != "one":
+            return wish
+        both = replace(thing, end=place.end, words=words, said="")
+        return replace(wish, fillers=tuple(both if f is thing else f for f in wish.fillers if f is not place))
 
     def _placed(self, wish: Wish) -> Wish:
         """With the place of a thing that no map holds as a role of its own: "the cup on the desk"."""

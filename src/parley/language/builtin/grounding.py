@@ -48,6 +48,10 @@ class Value:
     """One for each of several, if it is a set."""
 
 
+_IN_ROOMS = frozenset({"GO", "BRING", "LOOK", "FIND"})
+"""What is done in a room as a whole."""
+
+
 @dataclass(slots=True)
 class Grounder:
     """Says what the roles of one message hold; knows what was spoken of before."""
@@ -101,7 +105,11 @@ class Grounder:
         mention = link(filler.words, filler.head, self.situation.objects, self.lexicon)
         if kind == "person":
             return self._person(filler, mention)
-        return self._thing(wish.frame, filler, mention, placed=wish.has("SL"))
+        thing = wish.one("T") if wish.frame in ("LOOK", "FIND") and filler.role in "GL" else None
+        known = (
+            thing is not None and link(thing.words, thing.head, self.situation.objects, self.lexicon).things
+        )
+        return self._thing("" if known else wish.frame, filler, mention, placed=wish.has("SL"))
 
     def _person(self, filler: Filler, mention: Mention) -> Value | Ask:
         if mention.kind == "pronoun":
@@ -227,7 +235,7 @@ class Grounder:
 
     def _room(self, frame: str, filler: Filler) -> Value | None:
         """A room of the map as a goal, by its whole name; a thing that is called so goes before."""
-        if frame not in ("GO", "BRING") or filler.role not in "GL":
+        if frame not in _IN_ROOMS or filler.role not in "GL":
             return None
         small = self.lexicon.classes["prepositions"] | self.lexicon.classes["determiners"]
         name = [word for word in filler.words if word not in small]
@@ -239,7 +247,7 @@ class Grounder:
 
     def _in_room(self, frame: str, filler: Filler) -> MapObject | None:
         """Of a room as a goal the nearest thing in it, where the map has no rooms but things tell of them."""
-        if frame not in ("GO", "BRING") or filler.role not in "GL":
+        if frame not in _IN_ROOMS or filler.role not in "GL":
             return None
         return self.inside(filler.words)
 
@@ -282,7 +290,8 @@ class Grounder:
         self.left_out = ()
         self.mentioned += several.things
         if several.doubt or not several.things:
-            return Ask(several.doubt or "Then nothing is left. Which ones do you mean?")
+            doubt = several.doubt or "Then nothing is left. Which ones do you mean?"
+            return Ask(doubt, tuple(thing.description for thing in several.choices))
         each = tuple(Value(one.description, with_article(one.description), (one,)) for one in several.things)
         if len(each) == 1:
             return each[0]

@@ -165,6 +165,9 @@ def _wish(parse: Parse, verb: Verb, mine: list[Filler], lexicon: Lexicon) -> Wis
     while words and (words[0] in ("don't", "dont", "not", "never", "do") and len(words) > 1):
         words = words[1:]
     end, longer = _reach(parse, verb, lexicon)
+    behind = tuple(token.low for token in parse.tokens[end : end + 2])
+    if verb.frame == "GO" and behind in _TO_US and not any(filler.role == "G" for filler in mine):
+        mine = [*(f for f in mine if f.start != end), Filler("G", end, end + 2, 1, behind, 1.0, "to me")]
     known = longer or lexicon.frames_of(words, particles)
     known |= {general for special, general in _KIND_OF.items() if special in known}
     meant = len(longer) == 1 and verb.frame not in known and parse.acts[verb.start] == "order"
@@ -178,6 +181,7 @@ def _wish(parse: Parse, verb: Verb, mine: list[Filler], lexicon: Lexicon) -> Wis
     return Wish(frame, verb.start, said, tuple(mine), verb.share, witness, act, bool(negated), verb.otherwise)
 
 
+_TO_US = frozenset({("to", "me"), ("to", "us")})
 _NOT_SIMPLY_NOW = frozenset({"later", "earlier", "allowed"})
 """What the tagger sees in a clause by itself: its place is elsewhere, or it is let and not wanted."""
 

@@ -32,6 +32,8 @@ class Group:
 
     things: tuple[MapObject, ...] = ()
     doubt: str = ""
+    choices: tuple[MapObject, ...] = ()
+    """One of which is meant."""
 
 
 def group(
@@ -63,7 +65,8 @@ def group(
         return None
     found = _listed(parts, objects, lexicon) if len(parts) > 1 else _part(parts[0], objects, lexicon)
     if found is not None and said[0] in ("any", "either") and len(found.things) > 1:
-        return Group(doubt=which_one([item.description for item in found.things]))
+        names = [item.description for item in found.things]
+        return Group(doubt=which_one(names), choices=found.things)
     if found is None or not left_out:
         return found
     return found if found.doubt else _without(found, left_out, lexicon)

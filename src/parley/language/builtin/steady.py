@@ -37,7 +37,7 @@ def _said(reading: Reading, lexicon: Lexicon, skipped: int) -> frozenset[tuple[i
         told = sorted((f for f in wish.fillers if f.role in "TL"), key=lambda filler: filler.start)
         for filler in wish.fillers:
             words = " ".join(word for word in filler.words if word not in small)
-            if filler.role not in "AMTL" and words:
+            if filler.role not in "AMTL" and words and words not in lexicon.classes["me"]:
                 found.add((wish.start - skipped, words, filler.role))
         whole = " ".join(word for f in told for word in f.words if word not in small)
         if whole:

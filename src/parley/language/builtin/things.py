@@ -96,8 +96,8 @@ def link(words: Sequence[str], head: int, objects: Sequence[MapObject], lexicon:
     if not best:
         return Mention("none", " ".join((*name, *rest)))
     if len(best) > 1 and rest:
-        which, without = {*_content(rest, lexicon)}, not lexicon.classes["negations"].isdisjoint(rest)
-        nearer = [item for item in best if which.isdisjoint(stems(item.description.split())) is without]
+        hints, without = {*_content(rest, lexicon)}, not lexicon.classes["negations"].isdisjoint(rest)
+        nearer = [item for item in best if hints.isdisjoint(stems(item.description.split())) is without]
         best = nearer or best
     return Mention("one" if len(best) == 1 else "several", " ".join((*name, *rest)), tuple(best))
 
