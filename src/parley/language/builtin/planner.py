@@ -20,7 +20,7 @@ __all__ = ["NO_DEED", "Planner", "contradicted", "orders_of"]
 
 NO_DEED = frozenset({"BELOC", "BECAT", "REMEMBER", "FORGET"})
 _NO_ORDER = frozenset({"told", "social", "need"})
-_WHO_SAYS = frozenset({"i", "we", "you", "he", "she", "they", "somebody", "someone"})
+_WHO_SAYS = frozenset({"i", "we", "he", "she", "they", "somebody", "someone"})
 _IN_PLACE = frozenset({"SAY", "PHOTO", "DO", "WAIT", "TURN"})
 """What is done so often by itself, wherever that is."""
 _SPOKEN_OF = frozenset({"it", "them", "there", "they", "each", "one", "these", "those"})
