@@ -184,6 +184,7 @@ class ChatInterface(Node):
             self._questions.on_input(said)
             return  # an answer; where several robots wait, the error handler asks which is meant
         calls, refuses = calls_to_stop(said.message), self._says_no(said.message, control)
+        called = self._called_off(said) if calls else []
         hear: list[tuple[str, ChatFeedback | None]] = []
         for target in self._meant(said, control, calls=calls):
             question = self._questions.newest(target) if said.type == "response" else None
@@ -192,7 +193,9 @@ class ChatInterface(Node):
             moves = self._known.moves(target, self._presence.get(target))
             # Somebody else may just have said yes: what begins by that has not set the robot in motion yet.
             stands = self._known.state(target) == "paused"
-            halts = (calls and moves) or (unasked and (moves or stands or self._known.is_under_way(target)))
+            halts = (calls and (moves or target in called)) or (
+                unasked and (moves or stands or self._known.is_under_way(target))
+            )
             turns = question is None and control in (None, "stop")
             objects = moves and not offered and control is None and opens_with_no(said.message)
             if turns and (objects or only_takes_back(said.message, moves=moves)):
@@ -274,9 +277,15 @@ class ChatInterface(Node):
         targets = self._addressed(said)
         if control is not None:
             return self._presence.meant_by(said.message, control) or targets
-        called = self._presence.called_in(said.message) if calls else []
-        moving = [name for name in called if self._known.moves(name, self._presence.get(name))]
-        return list(dict.fromkeys((*targets, *moving)))
+        return list(dict.fromkeys((*targets, *(self._called_off(said) if calls else ()))))
+
+    def _called_off(self, said: ChatInput) -> list[str]:
+        """The robots at something that the words of a call to stop name, be it all of them."""
+        return [
+            name
+            for name in self._presence.called_in(said.message)
+            if self._known.is_under_way(name) or self._known.moves(name, self._presence.get(name))
+        ]
 
     def _hand_on(self, target: str, decision: PlanDecision, said: ChatInput) -> None:
         """Hand a yes or no on, if the question about the plan is what the robot said last; else ask again."""
