@@ -21,6 +21,7 @@ from parley.sentences.forms import Catalogue, is_own
 
 __all__ = ["LANGUAGES", "Sentence", "SpokenLanguage", "in_language", "listed", "sentence", "together"]
 
+_LOADER: Final = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _FILES: Final = resources.files("parley.sentences")
 LANGUAGES: Final = (
     "en",
@@ -88,4 +89,4 @@ def in_language(text: str, language: SpokenLanguage) -> str:
 @cache
 def _catalogue(language: SpokenLanguage) -> Catalogue:
     text = (_FILES / f"{language}.yaml").read_text(encoding="utf-8")
-    return Catalogue({pair["en"]: pair[language] for pair in yaml.safe_load(text)})
+    return Catalogue({pair["en"]: pair[language] for pair in yaml.load(text, _LOADER)})

@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Final
 
 __all__ = ["Catalogue", "is_own"]
@@ -33,9 +33,10 @@ def is_own(template: str, name: str) -> bool:
     return name.startswith("words") or f"“{{{name}}}”" in template
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class _Form:
-    pattern: re.Pattern[str]
+    text: str
+    """Of its pattern."""
     key: str
     """The longest of its words in a row: what lacks them is not tried."""
     own: frozenset[str]
@@ -43,6 +44,11 @@ class _Form:
     weight: int
     joins: bool
     """It only joins two parts: it counts where one of them is found."""
+
+    @cached_property
+    def pattern(self) -> re.Pattern[str]:
+        """Compiled when it is tried first: all of them at once would hold up the loop for half a second."""
+        return re.compile(self.text, re.DOTALL)
 
     @classmethod
     def of(cls, template: str, other: str) -> _Form:
@@ -64,7 +70,7 @@ class _Form:
             text += re.escape(behind)
             seen.add(name)
         return cls(
-            pattern=re.compile(text, re.DOTALL),
+            text=text,
             key=max(literal, key=len, default=""),
             own=own,
             other=other,
