@@ -20,7 +20,7 @@ interface Outbox {
   discard: (id: string) => void;
 }
 
-const LONGEST_TURN_MS = 2000;
+const LONGEST_TURN_MS = 400; // a stop that is typed behind it has one second
 
 const pause = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
 
