@@ -29,7 +29,7 @@ _REACTION_S: Final = 0.12
 """Until a command has become motion, and until the next one may."""
 _MARGIN_M: Final = 0.02
 _TURN_OUT_M: Final = 0.08
-_SAMPLES: Final = 8
+_SAMPLES: Final = 14
 _TURNS: Final = 5
 _SHARES: Final = (1.0, 0.75, 0.5, 0.25, 0.1)
 _STILL_MPS: Final = 1e-3
