@@ -226,6 +226,15 @@ class Nodes:
     def _on_site(self, robot: str, known: Surroundings) -> None:
         self.rules.know(robot, RobotFacts(known.occupancy.name, known.radius_m, known.max_speed_mps))
 
+    def _resolver(self, known: Surroundings) -> Resolver:
+        return Resolver(
+            self._language.ground,
+            known.objects.places,
+            known.occupancy,
+            radius_m=known.radius_m,
+            clock=self._clock,
+        )
+
     async def _judge(
         self,
         robot: str,
@@ -241,14 +250,7 @@ class Nodes:
         known = await self.sites.known(robot)
         if known is None:
             return None
-        resolver = Resolver(
-            self._language.ground,
-            known.objects.places,
-            known.occupancy,
-            radius_m=known.radius_m,
-            clock=self._clock,
-        )
-        steps = await resolver.resolve(calls, catalogue, pose)
+        steps = await self._resolver(known).resolve(calls, catalogue, pose)
         return await judge_with_ways(
             self.rules, robot, steps, known.occupancy, by=by, pose=pose, people=known.objects.people
         )
@@ -265,13 +267,7 @@ class Nodes:
         known = self.sites.by_robot.get(robot)
         if known is None:
             return None
-        resolver = Resolver(
-            self._language.ground,
-            known.objects.places,
-            known.occupancy,
-            radius_m=known.radius_m,
-            clock=self._clock,
-        )
+        resolver = self._resolver(known)
         zones = [self.rules.shape(rule) for rule in self.rules.closed_to(robot, None)]
         return await survey(
             lambda calls, start: resolver.resolve(calls, catalogue, start),

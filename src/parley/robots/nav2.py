@@ -8,34 +8,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import Any, Final
+from dataclasses import dataclass
+from typing import Any
 
 from parley.errors import ActionFailure
-from parley.extras import needs
 from parley.messages.actions import ActionWire, CancelGoalRequest
 from parley.messages.ros_robot import NavigateGoal, PoseStamped, Release, navigate_to_pose
-from parley.robots.base import DriveLimits
 from parley.robots.nav2_errors import failure_of
-from parley.robots.ros_robot import RosRobot
-from parley.robots.ros_senses import RosTopics
+from parley.robots.ros_robot import Connect, RosRobot, RosSetup
 from parley.transport.base import Outcome, SentGoal, Transport
 
-__all__ = ["SLOW_DRIVE", "Nav2Robot", "Nav2Setup"]
-
-SLOW_DRIVE: Final = DriveLimits(max_speed_mps=0.4, max_turn_radps=1.5)
+__all__ = ["Nav2Robot", "Nav2Setup"]
 
 
 @dataclass(frozen=True, slots=True)
-class Nav2Setup:
-    """What a robot is like; the names are those of Nav2's own examples."""
+class Nav2Setup(RosSetup):
+    """See `RosSetup`; the names are those of Nav2's own examples."""
 
+    action: str = "navigate_to_pose"
     release: Release = "jazzy"
     """Which messages its Nav2 has."""
-    action: str = "navigate_to_pose"
-    topics: RosTopics = field(default_factory=RosTopics)
-    radius_m: float = 0.25
-    limits: DriveLimits = SLOW_DRIVE
 
 
 class Nav2Robot(RosRobot):
@@ -43,18 +35,13 @@ class Nav2Robot(RosRobot):
 
     Args:
         name: How people call it.
-        connect: The address of its rosbridge, `ws://...`; or what makes another transport, opened in a
-            thread of its own.
+        connect: Where it is: the address of its rosbridge, `ws://...`, or what makes another transport.
         setup: What it is like.
     """
 
-    def __init__(
-        self, name: str, connect: str | Callable[[], Transport], setup: Nav2Setup | None = None
-    ) -> None:
+    def __init__(self, name: str, connect: Connect, setup: Nav2Setup | None = None) -> None:
         setup = setup or Nav2Setup()
-        goals = _NavigateToPose(setup.topics.name(setup.action), setup.release)
-        made = connect if callable(connect) else lambda: _bridge(connect)
-        super().__init__(name, made, goals, setup.topics, setup.radius_m, setup.limits)
+        super().__init__(name, connect, _NavigateToPose(setup.goals, setup.release), setup)
 
 
 class _NavigateToPose:
@@ -84,9 +71,3 @@ class _NavigateToPose:
     def failure(self, outcome: Outcome[Any], *, moved: bool) -> ActionFailure:
         code, says = getattr(outcome.result, "error_code", 0), getattr(outcome.result, "error_msg", "")
         return failure_of(code, says, moved=moved)
-
-
-def _bridge(address: str) -> Transport:
-    with needs("rosbridge"):
-        from parley.transport.rosbridge import RosbridgeTransport
-    return RosbridgeTransport(address)

@@ -11,21 +11,17 @@ import asyncio
 import math
 import uuid
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Final
 
 from parley.errors import ActionFailure, TransportTimeoutError, UnavailableError
-from parley.extras import needs
 from parley.messages import ros1
 from parley.messages.actions import GoalState
 from parley.messages.ros1 import ActionlibState
 from parley.messages.ros_robot import Empty, PoseStamped
 from parley.messages.topics import QoS, Topic
-from parley.robots.base import DriveLimits
-from parley.robots.nav2 import SLOW_DRIVE
 from parley.robots.nav2_errors import failure_of
-from parley.robots.ros_robot import RosRobot
-from parley.robots.ros_senses import RosTopics
+from parley.robots.ros_robot import Connect, RosRobot, RosSetup
 from parley.transport.base import Outcome, Publisher, SentGoal, Transport
 
 __all__ = ["MOVE_BASE", "Ros1Robot", "Ros1Setup"]
@@ -47,13 +43,10 @@ MOVE_BASE: Final[dict[str, tuple[type[Any], str]]] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Ros1Setup:
-    """What a robot is like; the names are the usual ones."""
+class Ros1Setup(RosSetup):
+    """See `RosSetup`."""
 
     action: str = "move_base"
-    topics: RosTopics = field(default_factory=RosTopics)
-    radius_m: float = 0.25
-    limits: DriveLimits = SLOW_DRIVE
 
 
 class Ros1Robot(RosRobot):
@@ -61,18 +54,13 @@ class Ros1Robot(RosRobot):
 
     Args:
         name: How people call it.
-        connect: The address of its rosbridge, `ws://...`; or what makes another transport, opened in a
-            thread of its own.
+        connect: Where it is: the address of its rosbridge, `ws://...`, or what makes another transport.
         setup: What it is like.
     """
 
-    def __init__(
-        self, name: str, connect: str | Callable[[], Transport], setup: Ros1Setup | None = None
-    ) -> None:
+    def __init__(self, name: str, connect: Connect, setup: Ros1Setup | None = None) -> None:
         setup = setup or Ros1Setup()
-        made = connect if callable(connect) else lambda: _bridge(connect)
-        goals = _MoveBase(setup.topics.name(setup.action))
-        super().__init__(name, made, goals, setup.topics, setup.radius_m, setup.limits)
+        super().__init__(name, connect, _MoveBase(setup.goals), setup, ros=1)
 
 
 class _Sent:
@@ -173,9 +161,3 @@ class _MoveBase:
         if self._sent is not None and told.status.goal_id.id == self._sent.id:
             here, there = told.feedback.base_position.pose.position, self._sent.target.pose.position
             self._sent.on_remaining(round(math.hypot(there.x - here.x, there.y - here.y), 2))
-
-
-def _bridge(address: str) -> Transport:
-    with needs("rosbridge"):
-        from parley.transport.rosbridge import RosbridgeTransport
-    return RosbridgeTransport(address, ros=1)

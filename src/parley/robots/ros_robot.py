@@ -8,7 +8,8 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Coroutine
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any, Final, Protocol, TypeVar
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Final, Literal, Protocol, TypeVar
 
 from parley.errors import (
     ActionFailure,
@@ -18,6 +19,7 @@ from parley.errors import (
     TransportTimeoutError,
     UnavailableError,
 )
+from parley.extras import needs
 from parley.messages.actions import GoalState
 from parley.messages.ros_robot import Bool, PoseStamped, Twist, Vector3
 from parley.robots.base import CameraImage, DriveLimits, LaserScan, NavigationControl, Velocity
@@ -32,7 +34,7 @@ from parley.world.geometry import Pose2D
 if TYPE_CHECKING:
     from parley.world.occupancy import OccupancyMap
 
-__all__ = ["Goals", "RosRobot"]
+__all__ = ["Connect", "Goals", "RosRobot", "RosSetup"]
 
 HOLD_S: Final = 0.1
 """Between two words to the robot on whether it must stand."""
@@ -84,30 +86,47 @@ class Goals(Protocol):
         ...
 
 
+SLOW_DRIVE: Final = DriveLimits(max_speed_mps=0.4, max_turn_radps=1.5)
+
+Connect = str | Callable[[], Transport]
+"""The address of a rosbridge, `ws://...`; or what makes another transport, opened in a thread of its own."""
+
+
+@dataclass(frozen=True, slots=True)
+class RosSetup:
+    """What a robot is like; the names are the usual ones."""
+
+    action: str
+    """By which it drives to a place."""
+    topics: RosTopics = field(default_factory=RosTopics)
+    radius_m: float = 0.25
+    limits: DriveLimits = SLOW_DRIVE
+
+    @property
+    def goals(self) -> str:
+        """The name of the action, where the robot has it."""
+        return self.topics.name(self.action)
+
+
 class RosRobot(RobotBase):
     """See the module.
 
     Args:
         name: How people call it.
-        connect: Makes the transport, which is opened in a thread of its own.
+        connect: Where it is.
         goals: How it is asked to drive.
-        topics: What it tells and hears.
-        radius_m: Of its footprint.
-        limits: How fast it may be driven.
+        setup: What it is like.
+        ros: The version of ROS behind a rosbridge.
     """
 
     def __init__(
-        self,
-        name: str,
-        connect: Callable[[], Transport],
-        goals: Goals,
-        topics: RosTopics,
-        radius_m: float,
-        limits: DriveLimits,
+        self, name: str, connect: Connect, goals: Goals, setup: RosSetup, *, ros: Literal[1, 2] = 2
     ) -> None:
         super().__init__(name)
-        self._connect, self._goals, self._names = connect, goals, topics
-        self.radius_m, self.limits = radius_m, limits
+        topics = setup.topics
+        self._connect = connect if callable(connect) else lambda: _bridge(connect, ros)
+        self._goals, self._names = goals, topics
+        self.radius_m, self.limits = setup.radius_m, setup.limits
         self.capabilities = frozenset({"drive"} | topics.capabilities)
         self._senses = Senses(topics, lambda: self._clock.now_s(), lambda: self._clock.wall_s())
         self._link: Link | None = None
@@ -337,3 +356,9 @@ class RosRobot(RobotBase):
             work.close()
             raise ActionFailure(FailureCode.HARDWARE, SILENT)
         return await self._link.run(work)
+
+
+def _bridge(address: str, ros: Literal[1, 2]) -> Transport:
+    with needs("rosbridge"):
+        from parley.transport.rosbridge import RosbridgeTransport
+    return RosbridgeTransport(address, ros=ros)

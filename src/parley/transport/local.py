@@ -7,12 +7,21 @@ from collections.abc import Awaitable, Callable
 from types import TracebackType
 from typing import Any, Generic, Self, TypeVar
 
-from parley.errors import TransportError, TransportTimeoutError, TypeMismatchError, UnavailableError
 from parley.messages.actions import Action
 from parley.messages.topics import Service, Topic
 from parley.transport.actions import CallingActionClient
 from parley.transport.base import Endpoint, Handler, Subscription, absolute
 from parley.transport.inbox import Inbox, being_cancelled
+from parley.transport.refusals import (
+    answered_already,
+    check_message,
+    check_request,
+    failed,
+    nobody_answers,
+    too_late,
+    types_differ,
+    went_away,
+)
 
 __all__ = ["LocalTransport"]
 
@@ -29,10 +38,7 @@ class _LocalPublisher(Generic[M]):
         self._transport, self._topic, self._open = transport, topic, True
 
     def publish(self, message: M) -> None:
-        if not isinstance(message, self._topic.type):
-            raise TypeMismatchError(
-                f"{self._topic.name} carries {self._topic.ros_type}; got a {type(message).__name__}"
-            )
+        check_message(self._topic, message)
         if self._open:
             self._transport._deliver(self._topic, message)
 
@@ -124,7 +130,7 @@ class LocalTransport:
         name = absolute(service.name)
         self._check_type(service.name, service.ros_type)
         if name in self._servers:
-            raise UnavailableError(f"service {service.name} is answered already; stop the other one first")
+            raise answered_already(service.name)
         server = _LocalServer(self, name)
         self._servers[name] = (server, service.ros_type, handler)
         self._changed()
@@ -134,12 +140,9 @@ class LocalTransport:
         """See `Transport.call`."""
         entry = self._servers.get(absolute(service.name))
         if entry is None:
-            raise UnavailableError(f"nobody answers service {service.name}; is its node running?")
+            raise nobody_answers(service.name)
         self._check_type(service.name, service.ros_type)
-        if not isinstance(request, service.request):
-            raise TypeMismatchError(
-                f"{service.name} takes {service.ros_type}; got a {type(request).__name__}"
-            )
+        check_request(service, request)
         task: asyncio.Task[Res] = asyncio.ensure_future(entry[2](request))
         self._calls.add(task)
         task.add_done_callback(self._calls.discard)
@@ -150,13 +153,11 @@ class LocalTransport:
         except asyncio.CancelledError:
             if being_cancelled():
                 raise
-            raise UnavailableError(f"service {service.name} went away before it answered") from None
+            raise went_away(service.name) from None
         except Exception as error:
             if limit.expired():
-                raise TransportTimeoutError(
-                    f"service {service.name} did not answer within {timeout_s} s"
-                ) from error
-            raise TransportError(f"service {service.name} failed: {error}") from error
+                raise too_late(service.name, timeout_s) from error
+            raise failed(service.name, error) from error
 
     async def action_client(
         self, action: Action[Goal, Result, Feedback]
@@ -182,9 +183,7 @@ class LocalTransport:
     def _check_type(self, name: str, ros_type: str) -> None:
         known = self._types.setdefault(absolute(name), ros_type)
         if known != ros_type:
-            raise TypeMismatchError(
-                f"{name} is in use as {known}, not {ros_type}; use the same type on both sides"
-            )
+            raise types_differ(name, known, ros_type)
 
     def _deliver(self, topic: Topic[M], message: M) -> None:
         name = absolute(topic.name)

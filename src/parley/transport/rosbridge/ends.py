@@ -12,6 +12,7 @@ from parley.errors import TypeMismatchError
 from parley.messages.topics import Topic
 from parley.transport.base import Endpoint, absolute
 from parley.transport.inbox import Inbox
+from parley.transport.refusals import check_message
 from parley.transport.rosbridge.frames import Frame
 from parley.transport.rosbridge.line import Outbox
 from parley.transport.rosbridge.values import Codec
@@ -64,10 +65,7 @@ class RosbridgePublisher(Generic[M]):
 
     def publish(self, message: M) -> None:
         """See `Publisher.publish`."""
-        if not isinstance(message, self._topic.type):
-            raise TypeMismatchError(
-                f"{self._topic.name} carries {self._topic.ros_type}; got a {type(message).__name__}"
-            )
+        check_message(self._topic, message)
         if not self._open:
             return
         latch = self._topic.qos.latched

@@ -7,9 +7,10 @@ from typing import Any, Final
 
 import structlog
 
-from parley.errors import TransportError, TypeMismatchError, UnavailableError
+from parley.errors import TransportError, UnavailableError
 from parley.messages.topics import Service
-from parley.transport.base import Endpoint, absolute
+from parley.transport.base import Endpoint
+from parley.transport.graph import EndpointGraph
 from parley.transport.rosbridge.rosapi import (
     ACTION_SERVERS,
     NODE_DETAILS,
@@ -32,31 +33,26 @@ _PARTS: Final = ("send_goal", "cancel_goal", "get_result")
 log = structlog.get_logger(__name__)
 
 
-class Graph:
+class Graph(EndpointGraph):
     """Own ends at once, those of others whenever `look` was at the bridge. Used on the loop only."""
 
     def __init__(self) -> None:
+        super().__init__()
         self._own: list[Endpoint] = []
         self._seen: frozenset[Endpoint] = frozenset()
         self._service_types: dict[str, str] = {}
-        self._watchers: list[Callable[[], Any]] = []
         self._changes = 0
         self.known = False
         """Whether the bridge tells who is there; without its `rosapi` it does not."""
 
-    def endpoints(self) -> tuple[Endpoint, ...]:
-        """Who is there now."""
-        return tuple(self._seen.union(self._own))
-
-    def on_changed(self, watcher: Callable[[], Any]) -> Callable[[], None]:
-        """Call `watcher` whenever somebody comes or goes; returns how to stop that."""
-        self._watchers.append(watcher)
-        return lambda: self._watchers.remove(watcher) if watcher in self._watchers else None
+    def ends(self) -> Iterable[Endpoint]:
+        """See `EndpointGraph.ends`."""
+        return self._seen.union(self._own)
 
     def add_own(self, end: Endpoint) -> None:
         """An end of this process is open."""
         self._own.append(end)
-        self._changed()
+        self.changed()
 
     def remove_own(self, end: Endpoint) -> None:
         """An end of this process is closed; if others have the same, the next look shows it."""
@@ -64,27 +60,13 @@ class Graph:
         self._changes += 1
         if end not in self._own:
             self._seen -= {end}
-        self._changed()
+        self.changed()
 
     def lost(self) -> None:
         """The bridge is gone, and with it everybody else."""
         self.known, self._changes = False, self._changes + 1
         self._service_types.clear()
         self._see(frozenset())
-
-    def check(self, name: str, ros_type: str, *, service: bool) -> None:
-        """Raises `TypeMismatchError` if the name is in use with another type."""
-        for end in self.endpoints():
-            if end.name != absolute(name) or (end.role == "server") != service:
-                continue
-            if end.ros_type and end.ros_type != ros_type:
-                raise TypeMismatchError(
-                    f"{name} is in use as {end.ros_type}, not {ros_type}; use the same type on both sides"
-                )
-
-    def serves(self, name: str) -> bool:
-        """Whether somebody answers this service, as far as one can tell."""
-        return any(end.role == "server" and end.name == absolute(name) for end in self.endpoints())
 
     async def look(self, ask: Ask) -> None:
         """Ask the bridge who is there."""
@@ -131,11 +113,7 @@ class Graph:
     def _see(self, seen: frozenset[Endpoint]) -> None:
         if seen != self._seen:
             self._seen = seen
-            self._changed()
-
-    def _changed(self) -> None:
-        for watcher in list(self._watchers):
-            watcher()
+            self.changed()
 
 
 def _ends(names: Iterable[str], types: dict[str, str], role: str) -> set[Endpoint]:

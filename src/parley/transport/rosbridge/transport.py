@@ -14,14 +14,13 @@ import structlog
 
 from parley.errors import (
     TransportError,
-    TransportTimeoutError,
-    TypeMismatchError,
     UnavailableError,
     UnsupportedError,
 )
 from parley.messages.actions import Action
 from parley.messages.topics import Service, Topic
 from parley.transport.base import Endpoint, Handler, Subscription, absolute
+from parley.transport.refusals import answered_already, check_request, too_late
 from parley.transport.rosbridge.actions import RosbridgeActionClient
 from parley.transport.rosbridge.ends import End, RosbridgePublisher, RosbridgeServerEnd, RosbridgeSubscription
 from parley.transport.rosbridge.frames import Frame, text_of
@@ -158,7 +157,7 @@ class RosbridgeTransport:
         """See `Transport.serve`."""
         self._graph.check(service.name, service.ros_type, service=True)
         if self._graph.serves(service.name):
-            raise UnavailableError(f"service {service.name} is answered already; stop the other one first")
+            raise answered_already(service.name)
         requests, responses = self._codecs_of(service)
 
         async def answer(args: Any) -> Frame:
@@ -176,10 +175,7 @@ class RosbridgeTransport:
         return await self._call(service, request, timeout_s)
 
     async def _call(self, service: Service[Req, Res], request: Req, timeout_s: float) -> Res:
-        if not isinstance(request, service.request):
-            raise TypeMismatchError(
-                f"{service.name} takes {service.ros_type}; got a {type(request).__name__}"
-            )
+        check_request(service, request)
         requests, responses = self._codecs_of(service)
         id_ = f"call:{next(self._numbers)}"
         frame = {
@@ -192,9 +188,7 @@ class RosbridgeTransport:
             async with asyncio.timeout(timeout_s):
                 answer = await self.ask(id_, frame, f"service {service.name}")
         except TimeoutError as error:
-            raise TransportTimeoutError(
-                f"service {service.name} did not answer within {timeout_s} s"
-            ) from error
+            raise too_late(service.name, timeout_s) from error
         if answer.get("result") is not True:
             raise _refusal(service.name, answer.get("values"))
         return responses.decode(answer.get("values", {}))

@@ -13,6 +13,7 @@ from zenoh.ext import AdvancedPublisher, AdvancedSubscriber
 from parley.errors import TypeMismatchError
 from parley.messages.topics import Topic
 from parley.transport.inbox import Inbox
+from parley.transport.refusals import check_message
 from parley.transport.zenoh.cdr import Codec
 from parley.transport.zenoh.keys import Attachment
 from parley.transport.zenoh.lane import Lane, Outbox
@@ -86,10 +87,7 @@ class ZenohPublisher(Generic[M]):
 
     def publish(self, message: M) -> None:
         """See `Publisher.publish`."""
-        if not isinstance(message, self._topic.type):
-            raise TypeMismatchError(
-                f"{self._topic.name} carries {self._topic.ros_type}; got a {type(message).__name__}"
-            )
+        check_message(self._topic, message)
         if not self._open:
             return
         if self._outbox.put(self._codec.encode(message), self._stamp()):

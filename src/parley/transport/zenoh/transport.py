@@ -19,11 +19,19 @@ from zenoh.handlers import Callback
 
 from parley.clock import Clock, WallClock
 from parley.config import NetworkSettings
-from parley.errors import TransportError, TransportTimeoutError, TypeMismatchError, UnavailableError
+from parley.errors import UnavailableError
 from parley.messages.actions import Action
 from parley.messages.topics import QoS, Service, Topic
 from parley.transport.actions import CallingActionClient
 from parley.transport.base import Endpoint, Handler, Subscription, absolute
+from parley.transport.refusals import (
+    answered_already,
+    check_request,
+    failed,
+    nobody_answers,
+    too_late,
+    went_away,
+)
 from parley.transport.zenoh.cdr import Codec
 from parley.transport.zenoh.definitions import Definitions
 from parley.transport.zenoh.ends import Declared, ZenohPublisher, ZenohServer, ZenohSubscription
@@ -188,7 +196,7 @@ class ZenohTransport:
         """See `Transport.serve`."""
         place, token = self._place(service.name, service.ros_type, SERVICE_QOS, "server")
         if self._graph.serves(service.name):
-            raise UnavailableError(f"service {service.name} is answered already; stop the other one first")
+            raise answered_already(service.name)
         requests, responses = self._codecs_of(service)
 
         async def answer(data: bytes) -> bytes:
@@ -209,23 +217,18 @@ class ZenohTransport:
         """See `Transport.call`."""
         self._graph.check(service.name, service.ros_type, service=True)
         if not self._graph.serves(service.name):
-            raise UnavailableError(f"nobody answers service {service.name}; is its node running?")
-        if not isinstance(request, service.request):
-            raise TypeMismatchError(
-                f"{service.name} takes {service.ros_type}; got a {type(request).__name__}"
-            )
+            raise nobody_answers(service.name)
+        check_request(service, request)
         requests, responses = self._codecs_of(service)
         try:
             async with asyncio.timeout(timeout_s):
                 answer = await self._ask_server(service, requests.encode(request), timeout_s)
         except TimeoutError as error:
-            raise TransportTimeoutError(
-                f"service {service.name} did not answer within {timeout_s} s"
-            ) from error
+            raise too_late(service.name, timeout_s) from error
         if answer is None:
-            raise UnavailableError(f"service {service.name} went away before it answered")
+            raise went_away(service.name)
         if isinstance(answer, str):
-            raise TransportError(f"service {service.name} failed: {answer}")
+            raise failed(service.name, answer)
         return responses.decode(answer)
 
     async def action_client(
