@@ -76,6 +76,17 @@ def test_the_edge_of_the_robot_counts() -> None:
     assert not judged(book(STORE), go(3.75, 0)).forbidden
 
 
+def test_going_to_an_area_is_entering_it_but_one_may_stand_before_a_thing() -> None:
+    def to(*outline_m: float) -> PlannedStep:
+        return PlannedStep(ActionCall(name="NavigateTo"), GO, Place(3.5, 0, "it", (*outline_m,)))  # type: ignore[arg-type]
+
+    assert [item.code for item in judged(book(STORE), to(4.1, -1, 5.9, 1)).forbidden] == ["zone_entered"]
+    assert [item.code for item in judged(book(STORE | {"kind": "ask_zone"}), to(4.1, -1, 5.9, 1)).ask]
+    assert judged(book(STORE), to(4.0, -0.2, 4.4, 0.2)).forbidden == ()
+    slow = STORE | {"kind": "slow", "max_speed_mps": 0.2}
+    assert judged(book(slow), to(4.1, -1, 5.9, 1)).risky == ()
+
+
 def test_who_stands_in_a_zone_may_leave_it_but_not_come_back() -> None:
     inside = book(STORE | {"rectangle": (-1, -1, 1, 1)})
     assert judged(inside, go(3, 0)).forbidden == ()

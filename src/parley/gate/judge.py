@@ -44,6 +44,18 @@ class Place(NamedTuple):
     y: float
     id: str = ""
     """Of the object, if it is one."""
+    outline: tuple[float, float, float, float] | None = None
+    """x_min, y_min, x_max, y_max of the object."""
+
+    def is_zone(self, shape: Shape) -> bool:
+        """Whether the object and a zone are the same place: each holds the other's middle."""
+        if self.outline is None:
+            return False
+        x1, y1, x2, y2 = self.outline
+        left, low, right, high = shape.box_m
+        middle_x, middle_y = (left + right) / 2, (low + high) / 2
+        holds = x1 <= middle_x <= x2 and y1 <= middle_y <= y2
+        return holds and shape.distance_to((x1 + x2) / 2, (y1 + y2) / 2) < 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +153,7 @@ class _Walk:
         self._risk(index, step)
         way: tuple[Point, ...] = ()
         if step.place is not None and risk_of(step.info) is not RiskClass.LOOKS:
-            way = self._drive(index, Place(*step.place), began)
+            way = self._drive(index, step.place, began)
         elif step.info is not None and "moves" in step.info.effects and self._zones("keep_out"):
             text = sentence("I cannot say beforehand where step {number} leads.", number=self.number)
             self.risky.append(Finding(index, "", "way_unknown", text))
@@ -180,19 +192,21 @@ class _Walk:
         self.at += timedelta(seconds=_expected_s(way, self._zones("slow", "speed"), self.facts, began))
         for rule in self._zones("keep_out", "ask_zone", "slow"):
             if _holds_during(rule, began, self.at):
-                self._zone(index, rule, way)
+                self._zone(index, rule, way, place)
         passed = [person for person in self.people if math.dist(goal, person) >= _PERSON_NEAR_M]
         if any(_nearest(way, person) < _PERSON_NEAR_M for person in passed):  # it may be sent to somebody
             text = sentence("Somebody stands in the way of step {number}.", number=self.number)
             self.risky.append(Finding(index, "", "person_near", text))
         return tuple((float(x), float(y)) for x, y in way)
 
-    def _zone(self, index: int, rule: Rule, way: NDArray[np.float64]) -> None:
-        distance = Shape(rule.corners).distance_m(way)
-        inside = distance < self.facts.radius_m
+    def _zone(self, index: int, rule: Rule, way: NDArray[np.float64], place: Place) -> None:
+        shape = Shape(rule.corners)
+        inside = shape.distance_m(way) < self.facts.radius_m
         # Who stands in there already may leave.
         inside[: int(np.argmin(inside)) if not inside.all() else 0] = False
-        if not inside.any():
+        # One may stand before a thing and be there; of an area that is entering it, even if one only sees it.
+        entered = inside[-1] or (rule.kind != "slow" and place.is_zone(shape))
+        if not (entered or inside.any()):
             return
         words = {
             "number": self.number, "zone": zone_text(rule), "robot": self.robot,
@@ -204,7 +218,7 @@ class _Walk:
         elif rule.kind == "ask_zone":
             text = sentence("Step {number} leads through {zone}, which needs a yes{hours}.", **words)
             self.ask.append(Finding(index, rule.id, "zone_asks", text))
-        elif inside[-1]:
+        elif entered:
             text = sentence("Step {number} leads into {zone}, where {robot} must not go{hours}.", **words)
             self.forbidden.append(Finding(index, rule.id, "zone_entered", text))
         else:

@@ -125,4 +125,7 @@ class Resolver:
         if here is not None:
             with self._clock.hold():
                 spot = await asyncio.to_thread(approach_pose, self._map, thing, here, radius_m=self._radius_m)
-        return Place(*((spot.x_m, spot.y_m) if spot is not None else (thing.x_m, thing.y_m)), thing.id)
+        wide, high = thing.width_m / 2, thing.height_m / 2
+        outline = thing.x_m - wide, thing.y_m - high, thing.x_m + wide, thing.y_m + high
+        at = spot if spot is not None else thing
+        return Place(at.x_m, at.y_m, thing.id, outline)
