@@ -30,7 +30,7 @@ async def data(tmp_path: Path) -> Path:
 
 
 def parley(*words: str) -> tuple[int, str]:
-    result = CliRunner().invoke(command_line("audit"), ["audit", *words])
+    result = CliRunner().invoke(command_line(), ["audit", *words])
     return result.exit_code, result.stdout
 
 
@@ -42,7 +42,7 @@ def test_what_happened_is_shown_newest_first_and_can_be_narrowed(data: Path) -> 
     ]
     _, text = parley("show", "--data", str(data), "--by", "kim", "--json")
     assert [json.loads(line)["words"] for line in text.splitlines()] == ["=go to the box"]
-    nothing = CliRunner().invoke(command_line("audit"), ["audit", "show", "--data", str(data), "--by", "pat"])
+    nothing = CliRunner().invoke(command_line(), ["audit", "show", "--data", str(data), "--by", "pat"])
     assert (nothing.stdout, nothing.stderr) == ("", "Nothing of that kind is written.\n")
 
 
@@ -68,5 +68,5 @@ def test_a_table_is_exported_that_no_spreadsheet_carries_out(data: Path) -> None
 def test_a_folder_without_a_log_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("sys.argv", ["parley", "audit", "verify", "--data", str(tmp_path)])
-        assert run(command_line("audit")) == 2
+        assert run(command_line()) == 2
     assert "there is no audit.db" in capsys.readouterr().err

@@ -32,7 +32,7 @@ def file(tmp_path: Path) -> Path:
 
 
 def parley(*arguments: str | Path) -> Result:
-    return CliRunner().invoke(command_line("graph"), ["graph", *map(str, arguments)])
+    return CliRunner().invoke(command_line(), ["graph", *map(str, arguments)])
 
 
 @pytest.mark.parametrize(

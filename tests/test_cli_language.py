@@ -148,8 +148,8 @@ def test_file_with_one_bad_sentence_teaches_nothing_and_says_which_and_why(
     data.mkdir()
     file.write_text(f"teach: [{GOOD}, {entry}]", encoding="utf-8")
     monkeypatch.setattr(sys, "argv", ["parley", "language", "teach", str(file), "--data", str(data)])
-    assert run(command_line("language")) == 2
+    assert run(command_line()) == 2
     assert why in capsys.readouterr().err
     monkeypatch.setattr(sys, "argv", ["parley", "language", "teach", "--list", "--data", str(data)])
-    assert run(command_line("language")) == 0
+    assert run(command_line()) == 0
     assert capsys.readouterr().out == ""

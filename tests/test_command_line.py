@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 
@@ -11,37 +12,40 @@ from typer.testing import CliRunner
 from parley.cli import command_line, run
 
 
-def loaded(*arguments: str) -> set[str]:
-    """Which of the heavy rooms a command loads."""
+def loaded(*words: str, **environ: str) -> tuple[str, set[str]]:
+    """What a command line says, and which rooms and libraries it loads for it."""
     code = (
-        "import sys; from parley.cli import command_line\n"
-        f"command_line({arguments[0]!r})\n"
-        "print(*{'.'.join(name.split('.')[:2]) for name in sys.modules if name.startswith('parley.')})"
+        "import sys; from parley.cli import command_line, run\n"
+        f"try: sys.argv = ['parley', *{words!r}]; run(command_line())\n"
+        "finally: print(*{'.'.join(name.split('.')[:2]) for name in sys.modules})"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    return set(done.stdout.split())
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        check=False,
+        env={**os.environ, **environ},
+    )
+    *said, modules = done.stdout.splitlines()
+    return "\n".join(said), set(modules.split())
 
 
 @pytest.mark.parametrize("command", ["memory", "incidents"])
 def test_lists_wait_for_neither_the_simulator_nor_the_language_engine(command: str) -> None:
-    assert not loaded(command) & {"parley.sim", "parley.language", "parley.bench", "parley.demos"}
+    said, modules = loaded(command, "--help")
+    assert f"parley {command}" in said
+    assert not modules & {"parley.sim", "parley.language", "parley.bench", "parley.demos"}
 
 
-def test_help_lists_every_command() -> None:
-    shown = CliRunner().invoke(command_line(), ["--help"]).output
-    every = (
-        "actions",
-        "bench",
-        "demo",
-        "doctor",
-        "eval",
-        "graph",
-        "incidents",
-        "interpret",
-        "memory",
-        "prompt",
-    )
-    assert [name for name in (*every, "transcripts", "web", "world") if name not in shown] == []
+def test_list_of_commands_and_their_completion_load_none_of_them() -> None:
+    listed, modules = loaded("--help")
+    assert [name for name in ("demo", "doctor", "memory", "up") if f" {name} " not in listed] == []
+    asked = {"COMP_WORDS": "parley me", "COMP_CWORD": "1", "_PARLEY_COMPLETE": "complete_bash"}
+    completed, others = loaded(**asked)
+    assert completed == "memory"
+    small = {"parley.cli", "parley.errors", "parley.extras"}
+    assert {name for name in modules | others if name.startswith("parley.")} == small
+    assert not (modules | others) & {"numpy", "structlog", "yaml"}
 
 
 @pytest.mark.parametrize(("words", "code", "said"), [
@@ -77,5 +81,10 @@ def test_a_command_that_is_not_installed_says_how_to_get_it(
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, library, None)
     monkeypatch.setattr(sys, "argv", ["parley", command, "list", "--data", "nowhere"])
-    assert run(command_line(command)) == 2
+    assert run(command_line()) == 2
     assert f"pip install 'parley-hri[{extra}]'" in capsys.readouterr().err
+
+
+def test_help_says_of_what_is_not_installed_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "mujoco", None)
+    assert CliRunner().invoke(command_line(), ["--help"]).output.count("parley-hri[sim]") == 5

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 
-from parley.cli import command_line
 from parley.config import NetworkSettings, SystemConfig
 from parley.deployment import Deployment
 from parley.errors import ConfigError, FileFormatError
@@ -40,7 +39,6 @@ def test_every_part_of_an_example_runs_somewhere_and_can_be_begun(file: Path) ->
     assert sorted(part.name for part in parts) == ["agents", "page", "robot David"]
     for part in parts:  # its words are those of a command that there is
         invoke(*part.arguments[: 2 if part.arguments[0] == "node" else 1], "--help")
-    command_line("up")
 
 
 def test_each_machine_gets_its_parts_and_its_network(tmp_path: Path) -> None:

@@ -143,13 +143,11 @@ def test_a_model_without_its_key_hinders_and_the_remedy_names_what_works_without
 def test_the_exit_code_says_whether_something_needed_is_missing(tmp_path: Path) -> None:
     runner = CliRunner()
     port = str(free_port())
-    well = runner.invoke(
-        command_line("doctor"), ["doctor", "--json", "--data", str(tmp_path), "--port", port]
-    )
+    well = runner.invoke(command_line(), ["doctor", "--json", "--data", str(tmp_path), "--port", port])
     assert well.exit_code == 0
     assert {json.loads(line)["subject"] for line in well.stdout.splitlines()} >= {"Python", "page", "memory"}
     (tmp_path / "file").write_text("", encoding="utf-8")
-    ill = runner.invoke(command_line("doctor"), ["doctor", "--data", str(tmp_path / "file"), "--port", port])
+    ill = runner.invoke(command_line(), ["doctor", "--data", str(tmp_path / "file"), "--port", port])
     assert ill.exit_code == 1
     assert "✗ data folder" in ill.stdout
 
@@ -163,16 +161,14 @@ def test_settings_are_read_and_what_they_name_is_looked_for(tmp_path: Path) -> N
         encoding="utf-8",
     )
     runner, port = CliRunner(), str(free_port())
-    told = runner.invoke(
-        command_line("doctor"), ["doctor", "--json", "--config", str(settings), "--port", port]
-    )
+    told = runner.invoke(command_line(), ["doctor", "--json", "--config", str(settings), "--port", port])
     findings = {line["subject"]: line for line in map(json.loads, told.stdout.splitlines())}
     assert findings["settings"]["state"] == "ok"
     assert str(tmp_path / "data") in findings["data folder"]["text"]
     for subject in ("language", "embeddings"):
         assert (findings[subject]["state"], str(nobody) in findings[subject]["text"]) == ("wrong", True)
     settings.write_text("langauge: builtin\n", encoding="utf-8")
-    broken = runner.invoke(command_line("doctor"), ["doctor", "--config", str(settings), "--port", port])
+    broken = runner.invoke(command_line(), ["doctor", "--config", str(settings), "--port", port])
     assert broken.exit_code == 1
     assert "line 1: langauge: there is no such setting" in broken.stdout
 

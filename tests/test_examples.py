@@ -22,7 +22,7 @@ GRAPHS = sorted((EXAMPLES / "graphs").glob("*.graph.json"))
 
 
 def invoke(*words: str) -> str:
-    result = CliRunner().invoke(command_line(words[0]), list(words))
+    result = CliRunner().invoke(command_line(), list(words))
     assert result.exit_code == 0, result.output
     return result.stdout
 

@@ -33,9 +33,7 @@ def test_without_a_network_everything_is_in_one_process() -> None:
 def test_a_part_of_its_own_needs_a_network(tmp_path: Path) -> None:
     (tmp_path / "parley.yaml").write_text("language: builtin\n", encoding="utf-8")
     for part in ("terminal", "web"):
-        result = CliRunner().invoke(
-            command_line("node"), ["node", part, "--config", str(tmp_path / "parley.yaml")]
-        )
+        result = CliRunner().invoke(command_line(), ["node", part, "--config", str(tmp_path / "parley.yaml")])
         assert isinstance(result.exception, ConfigError)
         assert "names no network" in str(result.exception)
 

@@ -9,6 +9,7 @@ import re
 import shlex
 import tomllib
 from pathlib import Path
+from typing import Any
 
 import pytest
 import structlog
@@ -17,6 +18,7 @@ from typer.core import TyperGroup
 from typer.testing import CliRunner
 
 import parley.api
+from parley.cli import command as loaded
 from parley.cli import command_line
 
 ROOT = Path(__file__).parent.parent
@@ -61,7 +63,7 @@ def test_a_page_can_be_followed_word_by_word(
         words = shlex.split(command)[1:]
         if words[0] == "demo" and not {"--script", "--terminal"} & set(words):
             words.append("--terminal")
-        done = CliRunner().invoke(command_line(words[0]), words, input="")
+        done = CliRunner().invoke(command_line(), words, input="")
         refused = words[0] == "doctor" and done.exit_code == 1  # what a test's machine lacks
         assert done.exit_code == 0 or refused, f"{command}: {done.output} {done.exception!r}"
     structlog.reset_defaults()
@@ -110,10 +112,12 @@ SHOWN = [
 
 
 def test_every_command_that_any_page_shows_exists_with_its_options() -> None:
-    whole = typer.main.get_command(command_line())
+    names = typer.main.get_group(command_line()).commands
+    whole = TyperGroup(commands={name: loaded(name) for name in names})
     wrong = []
     for where, shown in SHOWN:
-        command, words = whole, re.split(r" {2,}| #", shown)[0].split()
+        command: Any = whole
+        words = re.split(r" {2,}| #", shown)[0].split()
         while isinstance(command, TyperGroup) and words and words[0] in command.commands:
             command = command.commands[words.pop(0)]
         known = {name for option in command.params for name in (*option.opts, *option.secondary_opts)}

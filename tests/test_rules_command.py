@@ -19,7 +19,7 @@ rules:
 
 def parley(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> int:
     monkeypatch.setattr("sys.argv", ["parley", "rules", *arguments])
-    return run(command_line("rules"))
+    return run(command_line())
 
 
 def test_rules_are_shown_checked_and_tried(

@@ -24,7 +24,7 @@ def main() -> None:
             _signal.signal(number, _end_at_once)
     from parley.cli import command_line, run
 
-    sys.exit(run(command_line(next(iter(sys.argv[1:]), None))))
+    sys.exit(run(command_line()))
 
 
 def _end_at_once(number: int, _: object) -> None:

@@ -52,7 +52,7 @@ async def main():
 
 
 asyncio.run(main())
-robot = CliRunner().invoke(command_line("robot"), ["robot", "check", "own_robot.py:Cart", "--yes"])
+robot = CliRunner().invoke(command_line(), ["robot", "check", "own_robot.py:Cart", "--yes"])
 print(robot.exception)
 """
 

@@ -70,7 +70,7 @@ def test_the_messages_have_the_fields_of_the_contract(kind: Any, fields: set[str
 def test_an_argument_that_nobody_knows_is_named_instead_of_ending_in_an_exception(
     command: list[str],
 ) -> None:
-    found = CliRunner().invoke(command_line(command[0]), [*command, "--ros-args"])
+    found = CliRunner().invoke(command_line(), [*command, "--ros-args"])
     assert found.exit_code == 2
     assert "--ros-args" in found.output
 

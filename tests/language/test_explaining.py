@@ -17,7 +17,7 @@ OBJECTS = [
 
 def answered(message: str, *options: str) -> dict[str, Any]:
     line = json.dumps({"message": message, "objects": OBJECTS}) + "\n"
-    done = CliRunner().invoke(command_line("interpret"), ["interpret", *options], input=line)
+    done = CliRunner().invoke(command_line(), ["interpret", *options], input=line)
     assert done.exit_code == 0
     answer: dict[str, Any] = json.loads(done.stdout)
     return answer

@@ -105,7 +105,7 @@ async def test_whoever_breaks_a_promise_is_found_out(
 
 
 def test_the_example_keeps_them_all_and_is_forty_lines() -> None:
-    result = CliRunner().invoke(command_line("robot"), ["robot", "check", f"{EXAMPLE}:Cart", "--yes"])
+    result = CliRunner().invoke(command_line(), ["robot", "check", f"{EXAMPLE}:Cart", "--yes"])
     assert result.exit_code == 0, result.output
     assert "BROKEN" not in result.output
     assert result.output.count("kept") == 5

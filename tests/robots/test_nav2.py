@@ -269,7 +269,7 @@ def test_the_page_can_be_followed_with_the_simulated_robot(tmp_path: Path) -> No
             assert stand_in.stdout is not None and f":{port}, namespace none" in stand_in.stdout.readline()
             said = subprocess.run([sys.executable, str(example)], capture_output=True, text=True, check=True)
             words = ["robot", "check", f"{example}:robot", "--yes"]
-            checked = CliRunner().invoke(command_line("robot"), words)
+            checked = CliRunner().invoke(command_line(), words)
         finally:
             stand_in.terminate()
     assert said.stdout.count("finished") == 2, said.stdout

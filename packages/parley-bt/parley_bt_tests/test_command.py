@@ -30,7 +30,7 @@ def file(tmp_path: Path) -> Path:
 
 
 def parley(*arguments: str | Path) -> Result:
-    return CliRunner().invoke(command_line("graph"), ["graph", *map(str, arguments)])
+    return CliRunner().invoke(command_line(), ["graph", *map(str, arguments)])
 
 
 def test_a_graph_goes_to_a_tree_and_back(file: Path) -> None:

@@ -7,68 +7,95 @@ command, a setting or a file was wrong, 130 ended by Ctrl-C, 143 by SIGTERM.
 from __future__ import annotations
 
 import importlib
+from importlib.util import find_spec
+from typing import Any, Final, NamedTuple
 
 import typer
+from typer.core import TyperCommand
 from typer.exceptions import TyperException
 
 from parley import __version__
 from parley.cli.output import fail
-from parley.errors import MissingExtraError, ParleyError
+from parley.errors import ParleyError
 from parley.extras import needs
 
-__all__ = ["command_line", "run"]
-
-_COMMANDS = {
-    "demo": "sim", "doctor": "", "interpret": "", "eval": "", "incidents": "", "audit": "",
-    "transcripts": "sim",
-    "graph": "sim", "actions": "", "robot": "", "language": "", "memory": "", "rules": "", "world": "sim",
-    "prompt": "", "bench": "sim", "web": "web", "people": "web", "node": "zenoh",
-    "engine": "zenoh", "up": "zenoh",
-}  # fmt: skip
-"""Command -> the extra that it needs, if any. Each is a module of this package: with `register` if it is one
-command, with an `app` if it is several."""
+__all__ = ["command", "command_line", "run"]
 
 
-def command_line(only: str | None = None) -> typer.Typer:
-    """Put the command line together.
+class _Later(NamedTuple):
+    line: str
+    """What it is for."""
+    extra: str = ""
+    """What has to be installed for it."""
 
-    Args:
-        only: The one command to load, by name. A list of memories need not wait for the simulator and the
-            language engine. Without it, or if there is no such command, all are loaded: help lists them all.
-            ``--version`` needs none.
-    """
+
+_COMMANDS: Final = {
+    "demo": _Later("Run a demonstration, or your own world.", "sim"),
+    "doctor": _Later("Check this machine."),
+    "interpret": _Later("Say what each message asks for."),
+    "eval": _Later("Say how well each engine understands a set of messages."),
+    "incidents": _Later("List what went wrong, and how it ended."),
+    "audit": _Later("Who did what."),
+    "transcripts": _Later("Write down what is said where a demonstration goes wrong.", "sim"),
+    "graph": _Later("Check, run, show and convert UMRF graphs.", "sim"),
+    "actions": _Later("What robots can do."),
+    "robot": _Later("Try a class of your own for robots; simulate one that others drive."),
+    "language": _Later("Teach words of your own; check what the built-in engine learns from."),
+    "memory": _Later("Look into a memory file and change it."),
+    "rules": _Later("What robots may do: look at rules, check a file, try a drive."),
+    "world": _Later("Check world files, make maps and pictures of them.", "sim"),
+    "prompt": _Later("See what a language model would be told."),
+    "bench": _Later("Measure on this machine.", "sim"),
+    "web": _Later("The page for operators.", "web"),
+    "people": _Later("Who may use the page, and as what.", "web"),
+    "node": _Later("One part of a system, in a process of its own.", "zenoh"),
+    "engine": _Later("Carry out plans that are made in another process or on another machine.", "zenoh"),
+    "up": _Later("Run what belongs on this machine, and start again what ends.", "zenoh"),
+}
+"""Each is a module of this package: with a `command`, or with an `app` if it is several."""
+
+
+class _Loaded(TyperCommand):
+    """Loads its module when it is called: to list it, its name and its line are enough."""
+
+    def make_context(self, info_name: str | None, args: list[str], *more: Any, **kept: Any) -> Any:
+        return command(str(self.name)).make_context(info_name, args, *more, **kept)
+
+
+def command_line() -> typer.Typer:
+    """The whole command line; what a command needs is loaded when it is called."""
     app = typer.Typer(
         name="parley",
         help="Run robots by talking to them.",
         no_args_is_help=True,
         pretty_exceptions_enable=False,
-        add_completion=False,
     )
     app.callback(invoke_without_command=True)(_top)
-    needed = () if only == "--version" else _COMMANDS if only not in _COMMANDS else (only,)
-    for name in needed:
-        try:
-            with needs(_COMMANDS[name]):
-                module = importlib.import_module(f"parley.cli.{name}")
-        except MissingExtraError as missing:
-            _stand_in(app, name, missing)
-            continue
-        if hasattr(module, "register"):
-            module.register(app)
-        else:
-            app.add_typer(module.app, name=name)
+    for name, later in _COMMANDS.items():
+        extra = f" Not installed: pip install 'parley-hri\\[{later.extra}]'" if _lacks(later.extra) else ""
+        app.command(name, cls=_Loaded, help=later.line + extra)(lambda: None)
     return app
 
 
-def _stand_in(app: typer.Typer, name: str, missing: MissingExtraError) -> None:
-    """A command that is not installed: help lists it, and whoever calls it is told how to get it."""
-    anything = {"ignore_unknown_options": True, "allow_extra_args": True, "help_option_names": []}
+def command(name: str) -> Any:
+    """One command, loaded.
 
-    @app.command(
-        name, help=f"Not installed: pip install 'parley-hri\\[{missing.extra}]'", context_settings=anything
-    )
-    def tell(_: typer.Context) -> None:
-        raise missing
+    Raises:
+        MissingExtraError: A library that it needs is not installed.
+    """
+    line, extra = _COMMANDS[name]
+    with needs(extra):
+        module = importlib.import_module(f"parley.cli.{name}")
+    app = typer.Typer()
+    if hasattr(module, "app"):
+        app.add_typer(module.app, name=name, help=line)
+    else:
+        app.command(name)(module.command)
+    return typer.main.get_group(app).commands[name]
+
+
+def _lacks(extra: str) -> bool:
+    return bool(extra) and find_spec({"sim": "mujoco", "web": "fastapi", "zenoh": "zenoh"}[extra]) is None
 
 
 def _top(version: bool = typer.Option(False, "--version", help="Show the version and leave.")) -> None:

@@ -25,7 +25,7 @@ from parley.umrf.io import write_descriptor
 
 __all__ = ["FolderOption", "app", "catalogue_with"]
 
-app = typer.Typer(help="What robots can do.", no_args_is_help=True)
+app = typer.Typer(no_args_is_help=True)
 
 FolderOption = Annotated[
     Path | None, typer.Option("--actions", help="Folder with more actions: Python files and *.umrf.json.")

@@ -19,7 +19,7 @@ from parley.messages.audit import AuditEntry, GetAudit
 
 __all__ = ["app"]
 
-app = typer.Typer(help="Who did what.", no_args_is_help=True)
+app = typer.Typer(no_args_is_help=True)
 
 _PAGE: Final = 1000
 _COLUMNS: Final = (

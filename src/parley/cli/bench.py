@@ -22,7 +22,7 @@ from parley.umrf.model import Graph
 
 __all__ = ["app"]
 
-app = typer.Typer(help="Measure on this machine.", no_args_is_help=True)
+app = typer.Typer(no_args_is_help=True)
 
 JsonOption = Annotated[bool, typer.Option("--json", help="One JSON object per figure.")]
 LENGTHS = (10, 100, 1000)

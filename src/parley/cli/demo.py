@@ -38,15 +38,10 @@ from parley.extras import needs
 from parley.system import System
 from parley.terminal import TerminalClient
 
-__all__ = ["data_folder", "register"]
+__all__ = ["command", "data_folder"]
 
 
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command("demo")(demo)
-
-
-def demo(
+def command(
     name: Annotated[
         str, typer.Argument(help=f"One of: {', '.join(DEMOS)}; or a folder with your own world.")
     ] = "nursing-home",

@@ -17,18 +17,13 @@ from parley.config import SystemConfig
 from parley.doctor import Finding, Subject, examine
 from parley.errors import ConfigError
 
-__all__ = ["register"]
+__all__ = ["command"]
 
 _MARKS = {"ok": "✓", "missing": "✗", "wrong": "✗", "unused": "○"}
 _WORDS = {"ok": "ok", "missing": "missing", "wrong": "wrong", "unused": "not used"}
 
 
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command("doctor")(doctor)
-
-
-def doctor(
+def command(
     data: Annotated[
         Path | None, typer.Option(help="Folder for memories; default: the demonstration's.")
     ] = None,

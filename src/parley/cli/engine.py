@@ -19,15 +19,10 @@ from parley.robots.own import RobotBase
 from parley.site import Site
 from parley.system import System
 
-__all__ = ["register", "system_of_robots"]
+__all__ = ["command", "system_of_robots"]
 
 
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command("engine")(engine)
-
-
-def engine(
+def command(
     config: NetworkOption,
     world: Annotated[
         str, typer.Option(help=f"Where the robots are: a folder, or one of: {', '.join(DEMOS)}.")

@@ -26,17 +26,12 @@ from parley.evaluation.sets import SET_NAMES, load_set
 from parley.language.llm import build_language
 from parley.language.llm.usage import Usage
 
-__all__ = ["register"]
+__all__ = ["command"]
 
 Run = tuple[BackendScore, list[Outcome]]
 
 
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command("eval")(evaluate_languages)
-
-
-def evaluate_languages(
+def command(
     language: Annotated[
         list[str] | None,
         typer.Option(help="builtin, provider:model, auto:provider:model; repeatable."),

@@ -30,7 +30,7 @@ from parley.umrf.show import show as show_graph
 
 __all__ = ["app"]
 
-app = typer.Typer(help="Check, run, show and convert UMRF graphs.", no_args_is_help=True)
+app = typer.Typer(no_args_is_help=True)
 
 _ENDED = {
     state.value for state in (GraphState.FINISHED, GraphState.HALTED, GraphState.STOPPED, GraphState.ERROR)

@@ -15,7 +15,7 @@ from parley.errors import ConfigError
 from parley.memory.incidents import IncidentStore
 from parley.messages.incident import Incident
 
-__all__ = ["register"]
+__all__ = ["command"]
 
 _ENDINGS = {
     "open": "still open",
@@ -27,12 +27,7 @@ _ENDINGS = {
 }
 
 
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command("incidents")(incidents)
-
-
-def incidents(
+def command(
     data: Annotated[Path, typer.Option(help="The data folder of a system (it holds incidents.db).")],
     robot: Annotated[str, typer.Option(help="Only those of this robot.")] = "",
     limit: Annotated[int, typer.Option(help="How many, newest first.", min=1, max=1000)] = 100,

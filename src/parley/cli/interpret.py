@@ -23,15 +23,10 @@ from parley.language.situations import Explains, interpret_lines
 from parley.language.situations import schema as schema_of_lines
 from parley.umrf.catalogue import Catalogue
 
-__all__ = ["register"]
+__all__ = ["command"]
 
 
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command("interpret")(interpret)
-
-
-def interpret(
+def command(
     situations: Annotated[
         Path, typer.Option(help="JSON lines, one situation each; - for standard input.")
     ] = Path("-"),

@@ -34,9 +34,7 @@ from parley.world.object_map import MapObject
 
 __all__ = ["app"]
 
-app = typer.Typer(
-    no_args_is_help=True, help="Teach words of your own; check what the built-in engine learns from."
-)
+app = typer.Typer(no_args_is_help=True)
 
 
 class Lesson(BaseModel):

@@ -24,7 +24,7 @@ __all__ = ["app"]
 
 T = TypeVar("T")
 
-app = typer.Typer(help="Look into a memory file and change it.", no_args_is_help=True)
+app = typer.Typer(no_args_is_help=True)
 
 DataOption = Annotated[
     Path | None,

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 __all__ = ["NetworkOption", "app", "networked", "run_system"]
 
-app = typer.Typer(help="One part of a system, in a process of its own.", no_args_is_help=True)
+app = typer.Typer(no_args_is_help=True)
 
 NetworkOption = Annotated[
     Path, typer.Option("--config", help="File with the settings; network is among them.")

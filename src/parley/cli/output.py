@@ -8,8 +8,6 @@ from typing import Any
 
 import typer
 
-from parley.logs import quiet_logs
-
 __all__ = ["emit_json", "fail", "quiet_logs"]
 
 
@@ -17,6 +15,13 @@ def emit_json(value: Any) -> None:
     """Print one JSON line, at once."""
     typer.echo(json.dumps(value, ensure_ascii=False))
     sys.stdout.flush()
+
+
+def quiet_logs(verbose: bool = False) -> None:
+    """See `parley.logs.quiet_logs`, which takes a while to load."""
+    from parley.logs import quiet_logs as quiet
+
+    quiet(verbose)
 
 
 def fail(text: str, code: int = 2) -> int:

@@ -22,7 +22,7 @@ __all__ = ["app"]
 
 T = TypeVar("T")
 
-app = typer.Typer(help="Who may use the page, and as what.", no_args_is_help=True)
+app = typer.Typer(no_args_is_help=True)
 
 DataOption = Annotated[Path, typer.Option("--data", "--data-dir", help="The data folder of a system.")]
 NameArgument = Annotated[str, typer.Argument(help="The person's name.")]

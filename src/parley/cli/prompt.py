@@ -30,7 +30,7 @@ from parley.umrf.catalogue import Catalogue
 
 __all__ = ["app"]
 
-app = typer.Typer(help="See what a language model would be told.", no_args_is_help=True)
+app = typer.Typer(no_args_is_help=True)
 
 _EXAMPLE: Final = {
     "message": "go to the box by the door",
@@ -46,11 +46,6 @@ _EXAMPLE_ERROR: Final = {
     "failed_action": {"NavigateTo": {"input_parameters": {}, "output_parameters": {}}},
     "robot": "Robot",
 }
-
-
-@app.callback()
-def _group() -> None:
-    """Keeps `show` a command of its own."""
 
 
 @app.command("show")

@@ -43,12 +43,7 @@ robots:
 FLOOR_M = 10.0
 """Where no map is given, so much free floor is taken for granted around the robot."""
 
-app = typer.Typer(help="Robot classes.", no_args_is_help=True)
-
-
-@app.callback()
-def _robot() -> None:
-    """Robot classes."""
+app = typer.Typer(no_args_is_help=True)
 
 
 @app.command("check")

@@ -26,7 +26,7 @@ from parley.world.occupancy import OccupancyMap
 
 __all__ = ["app"]
 
-app = typer.Typer(help="What robots may do: look at rules, check a file, try a drive.", no_args_is_help=True)
+app = typer.Typer(no_args_is_help=True)
 
 RulesPath = Annotated[
     Path, typer.Argument(help="A rules.yaml, or the data folder of a system that holds it.")

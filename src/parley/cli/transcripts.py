@@ -14,15 +14,10 @@ from parley.demos.catalogue import DEMOS, load_demo
 from parley.demos.transcripts import Dialogues, page, played
 from parley.errors import ConfigError
 
-__all__ = ["register"]
+__all__ = ["command"]
 
 
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command("transcripts")(transcripts)
-
-
-def transcripts(
+def command(
     name: Annotated[str, typer.Argument(help=f"One of: {', '.join(DEMOS)}.")] = "nursing-home",
     out: Annotated[Path | None, typer.Option(help="The file to write; default: the screen.")] = None,
 ) -> None:

@@ -20,7 +20,7 @@ from parley.errors import ConfigError
 from parley.network import transport_of
 from parley.sentences import sentence
 
-__all__ = ["register"]
+__all__ = ["command"]
 
 AGAIN_S: Final = 1.0
 """Wall time before a part that ended is started again; doubles each time it ends soon."""
@@ -31,12 +31,7 @@ _WRONG: Final = 2
 """Exit code of a part whose settings are wrong: starting it again would not help."""
 
 
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command("up")(up)
-
-
-def up(
+def command(
     file: Annotated[Path, typer.Argument(help="Which part runs on which machine.")],
     machine: Annotated[str, typer.Option(help="Which of its machines this is; default: by its name.")] = "",
     check: Annotated[bool, typer.Option("--check", help="Say what would run here, and leave.")] = False,

@@ -37,12 +37,7 @@ PasswordFileOption = Annotated[
     Path | None, typer.Option(help="File with a password to sign in with, here too.")
 ]
 
-app = typer.Typer(help="The page for operators.", no_args_is_help=True)
-
-
-@app.callback()
-def _web() -> None:
-    """The page for operators."""
+app = typer.Typer(no_args_is_help=True)
 
 
 @app.command("openapi")

@@ -17,7 +17,7 @@ from parley.sim.world_file import WorldFile
 
 __all__ = ["app"]
 
-app = typer.Typer(help="Check world files, make maps and pictures of them.", no_args_is_help=True)
+app = typer.Typer(no_args_is_help=True)
 
 WorldArgument = Annotated[Path, typer.Argument(help="A world file (YAML).")]
 RobotOption = Annotated[str, typer.Option(help="Whose eyes or height; default: the world's first robot.")]
