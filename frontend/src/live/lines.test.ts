@@ -18,8 +18,13 @@ describe('the lines of a plan', () => {
     ]);
   });
 
-  it('show a search that has something to say, or that was asked for on its own', () => {
-    expect(shown(find('a', 'failed'), go('b'))).toEqual(['a failed 400', 'b queued 1000']);
+  it('say of a step whose place is not found how the search for it fares', () => {
+    const failed = { ...find('a', 'failed'), message: 'Two fit.' };
+    expect(linesOf([failed, go('b')]).map(({ step: { id, state, message } }) => [id, state, message])).toEqual([['b', 'failed', 'Two fit.']]);
+    expect(shown(find('a', 'paused'), go('b'), find('c', 'failed'), go('d', 'skipped'))).toEqual(['b paused 1400', 'd skipped 1400']);
+  });
+
+  it('show a search that was asked for on its own', () => {
     expect(shown(find('a'), step({ id: 'say' }))).toEqual(['a queued 400', 'say queued 0']);
     expect(shown(find('a'))).toEqual(['a queued 400']);
   });

@@ -7,8 +7,8 @@ export interface Line {
   finding: readonly StepView[];
 }
 
-/** States in which a search has something to say of its own. */
-const ALONE: ReadonlySet<StepState> = new Set(['failed', 'waiting', 'paused', 'stopping', 'stopped']);
+/** States in which a search has nothing to say that the step it is made for does not say. */
+const SILENT: ReadonlySet<StepState> = new Set(['queued', 'finished', 'skipped']);
 /** States of a step that is over. */
 export const OVER: ReadonlySet<StepState> = new Set(['finished', 'failed', 'stopped', 'skipped']);
 
@@ -18,7 +18,7 @@ export function linesOf(steps: readonly StepView[]): readonly Line[] {
   let finding: StepView[] = [];
   steps.forEach((step, index) => {
     const next = steps[index + 1];
-    if (step.only_finds && next && !ALONE.has(step.state) && feeds(step, next)) finding.push(step);
+    if (step.only_finds && next && feeds(step, next)) finding.push(step);
     else {
       lines.push({ step: together(step, finding), finding });
       finding = [];
@@ -35,10 +35,12 @@ const feeds = (step: StepView, next: StepView) =>
 
 function together(step: StepView, finding: readonly StepView[]): StepView {
   if (finding.length === 0) return step;
-  const begun = step.state === 'queued' && finding.some((one) => one.state === 'running');
+  // Until the search has found something, how it fares is how the whole fares.
+  const searching = step.state === 'queued' ? finding.find((one) => !SILENT.has(one.state)) : undefined;
   return {
     ...step,
-    state: begun ? 'running' : step.state,
+    state: searching?.state ?? step.state,
+    message: searching?.message || step.message,
     started_unix_ms: finding.find((one) => one.started_unix_ms > 0)?.started_unix_ms ?? step.started_unix_ms,
     worked_ms: finding.reduce((sum, one) => sum + one.worked_ms, step.worked_ms),
     working_since_unix_ms: Math.max(step.working_since_unix_ms, ...finding.map((one) => one.working_since_unix_ms)),
