@@ -6,7 +6,7 @@ import { useLive } from './live/store';
 import { useSelectionStore } from './state/selection';
 import { useToasts } from './state/toasts';
 
-class NoResize {
+class NoObserver {
   observe() {}
   unobserve() {}
   disconnect() {}
@@ -19,8 +19,8 @@ beforeAll(async () => {
   Element.prototype.scrollIntoView ??= () => undefined;
   // There is no screen: it counts as a large one.
   window.matchMedia ??= (query) => Object.assign(new EventTarget(), { matches: true, media: query }) as MediaQueryList;
-  window.matchMedia ??= () => Object.assign(new EventTarget(), { matches: false }) as unknown as MediaQueryList;
-  window.ResizeObserver ??= NoResize as unknown as typeof ResizeObserver;
+  window.ResizeObserver ??= NoObserver as unknown as typeof ResizeObserver;
+  window.IntersectionObserver ??= NoObserver as unknown as typeof IntersectionObserver; // nothing is in sight
   await startWords('en');
 });
 

@@ -13,6 +13,7 @@ import { nameList, sentence } from '@/ui/words';
 
 import css from './asks.module.css';
 import { Choices } from './choices';
+import { useInSight } from './use-in-sight';
 
 type Choose = (entry: ChatEntry, choice: string) => void;
 
@@ -54,9 +55,10 @@ export function Asks({ chosen, asked, onChoose }: Props) {
 function Question({ entry, onChoose, children }: { entry: ChatEntry; onChoose: Choose; children: React.ReactNode }) {
   const { t, i18n } = useTranslation('chat');
   const name = nameList(entry.targets, i18n.language);
+  const isRead = useInSight(entry.id);
   return (
     <section className={css.ask} aria-label={t('questionHere', { name })}>
-      <p className={css.wishes}>
+      <p className={isRead ? 'hidden' : css.wishes}>
         <strong>{t('answering', { name })}</strong> {entry.message}
       </p>
       <div className={css.buttons}>
