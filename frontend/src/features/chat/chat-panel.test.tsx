@@ -207,9 +207,9 @@ describe('the chat', () => {
   });
 
   it('shows times and kinds only when asked to', async () => {
-    const user = show({ chat: [entry({ id: 'e', seq: 1, type: 'info', message: 'on my way' })] });
+    show({ chat: [entry({ id: 'e', seq: 1, type: 'info', message: 'on my way' })] });
     expect(screen.queryByText('INFO')).toBeNull();
-    await user.click(screen.getByRole('button', { name: 'Times and kinds' }));
+    act(() => usePrefs.setState({ debug: true }));
     expect(screen.getByText('INFO')).toBeTruthy();
   });
 

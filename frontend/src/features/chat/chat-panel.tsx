@@ -83,15 +83,16 @@ export function ChatPanel() {
   useShortcut('/', () => input.current?.focus());
   useShortcut('mod+f', () => setSearching(true));
 
+  const find = <Switch icon="search" label={t('search')} isSelected={searching} onChange={setSearching} />;
   const tools = (
     <>
-      <Switch icon="search" label={t('search')} isSelected={searching} onChange={setSearching} />
+      {find}
       <Switch icon="clock" label={t('debug')} isSelected={debug} onChange={(value) => set({ debug: value })} />
     </>
   );
   return (
     <Panel title={t('title')} tools={tools} flush bare={phone}>
-      <RobotTabs asked={asked} tools={phone ? tools : null} />
+      <RobotTabs asked={asked} tools={phone ? find : null} />
       {searching && <SearchBox onGo={goToEntry} onClose={closeSearch} />}
       <History
         key={key}

@@ -14,7 +14,7 @@ import css from './composer.module.css';
 import { useOutbox } from '@/state/outbox';
 import { readPhoto } from '@/ui/photo';
 import type { Answering } from '@/live/questions';
-import { UnattendedChoice, useUnattended } from './unattended';
+import { useUnattended } from '@/state/unattended';
 
 interface Props {
   chosen: readonly string[];
@@ -102,7 +102,6 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
         />
         <Button tone={ready ? 'main' : 'plain'} icon="send" iconOnly aria-label={t('send')} type="submit" isDisabled={!ready} />
       </div>
-      {draft.text.trim() !== '' && answering.question === null && <UnattendedChoice />}
     </form>
   );
 }

@@ -19,10 +19,13 @@ it('says where a robot is and for how long it works on what it really does', () 
   expect([...line.querySelectorAll('p > :not([aria-hidden])')].map((one) => one.textContent)).toEqual(
     ['Ada', 'Working', 'Hall', '92 %', '2 of 2: Go to the door', '1:05'],
   );
+  const far = { ...finds, only_finds: false, progress: 0.75, worked_ms: 0 };
+  act(() => useLive.getState().takeChanges([{ kind: 'plan', seq: 1, plan: plan({ robot: 'Ada', steps: [far] }) }]));
+  expect(line.querySelector('time')?.textContent).toBe('0:20 to go');
   const asks = plan({ robot: 'Ada', steps: [step({ id: 'ask', state: 'waiting' })] });
-  act(() => useLive.getState().takeChanges([{ kind: 'plan', seq: 1, plan: asks }]));
+  act(() => useLive.getState().takeChanges([{ kind: 'plan', seq: 2, plan: asks }]));
   expect(line.textContent).toMatch(/^AdaWaiting for you/);
-  act(() => useLive.getState().takeChanges([{ kind: 'robot', seq: 2, robot: { ...working, state: 'stopped' } }]));
+  act(() => useLive.getState().takeChanges([{ kind: 'robot', seq: 3, robot: { ...working, state: 'stopped' } }]));
   expect(line.querySelector('time')).toBeNull();
   act(() => useLive.getState().setConnection('lost', 1));
   expect(line.textContent).toBe('AdaNot known');

@@ -16,6 +16,8 @@ import css from './robot-line.module.css';
 const AT_WORK: ReadonlySet<StepView['state']> = new Set(['running', 'waiting', 'paused', 'stopping']);
 const OVER: ReadonlySet<PlanView['state']> = new Set(['idle', 'ended']);
 const SECOND_MS = 1000;
+/** From this part of a step on, the time that it took says how long the rest takes. */
+const TELLING = 0.15;
 
 /** How a robot fares: where it is, what it really does now, and for how long. */
 export function RobotLine({ name, named }: { name: string; named: boolean }) {
@@ -67,10 +69,13 @@ function taskOf(plan: PlanView) {
   return step ? { step, number: at + 1, all: lines.length } : null;
 }
 
-/** For how long a step has worked; while it stood still does not count. */
+/** For how long a step has worked, or will still work as soon as that can be told; while it stood still does not count. */
 function Worked({ step }: { step: StepView }) {
   const { t } = useTranslation('chat');
   const now = useNow(SECOND_MS);
-  const time = span(step.worked_ms + onServerClock(now) - step.working_since_unix_ms);
-  return <time aria-label={t('since', { time })}>{time}</time>;
+  const workedMs = step.worked_ms + onServerClock(now) - step.working_since_unix_ms;
+  const done = step.progress ?? 0;
+  const isTelling = done >= TELLING && done < 1;
+  const time = span(isTelling ? (workedMs * (1 - done)) / done : workedMs);
+  return <time aria-label={t(isTelling ? 'toGoLong' : 'since', { time })}>{isTelling ? t('toGo', { time }) : time}</time>;
 }

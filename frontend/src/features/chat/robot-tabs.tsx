@@ -71,7 +71,6 @@ export function RobotTabs({ asked, tools = null }: { asked: readonly ChatEntry[]
   return (
     <>
       <div className={css.row}>
-        {!(alone && tools) && <Button needs="setting" tone="quiet" icon="plus" iconOnly aria-label={t('addRobot')} onPress={() => open('addRobot')} />}
         {alone ? (
           <RobotLine name={names[0] ?? ''} named />
         ) : (
@@ -88,6 +87,7 @@ export function RobotTabs({ asked, tools = null }: { asked: readonly ChatEntry[]
             ))}
           </div>
         )}
+        {!(alone && tools) && <Button needs="setting" tone="quiet" icon="plus" iconOnly aria-label={t('addRobot')} onPress={() => open('addRobot')} />}
         {names.length > 1 && (
           <button
             type="button"

@@ -7,7 +7,7 @@ import css from './map.module.css';
 import { nameOf, type Candidates, type Mark } from './marks';
 import type { Trails } from './use-trails';
 import type { Way as Trial } from './use-way';
-import { labelOf, LONG_NAMES_SCALE, middleOf, roomForLabels, toScreen, type Place, type Size, type Viewport } from './viewport';
+import { aside, freeIn, labelOf, LONG_NAMES_SCALE, middleOf, roomForLabels, toScreen, type Place, type Size, type Viewport } from './viewport';
 
 export interface Rover {
   name: string;
@@ -172,9 +172,13 @@ function Labels({ things, rooms, candidates, rovers, view, size, robotPx }: Labe
     .map((thing) => {
       const candidate = candidates.get(thing.id);
       const text = candidate ? `${candidate.number}${view.scale < LONG_NAMES_SCALE ? '' : `  ${nameOf(thing)}`}` : labelOf(thing, view.scale);
-      return { id: `${candidate ? 'candidate' : 'thing'} ${thing.id}`, text, at: toScreen(view, size, thing), aside: ASIDE_PX };
+      const at = toScreen(view, size, thing);
+      return { id: `${candidate ? 'candidate' : 'thing'} ${thing.id}`, text, at, others: aside(at, ASIDE_PX) };
     });
-  const large = rooms.map((room) => ({ id: `room ${room.name}`, text: room.name, at: toScreen(view, size, middleOf(room)), aside: 2 * ASIDE_PX, letterPx: ROOM_LETTER_PX }));
+  const large = rooms.map((room) => {
+    const [at, ...others] = [...freeIn(room, things), middleOf(room)].map((place) => toScreen(view, size, place));
+    return { id: `room ${room.name}`, text: room.name, at: at ?? { x: 0, y: 0 }, others, letterPx: ROOM_LETTER_PX };
+  });
   const labels = [...robots, ...named.filter((one) => one.id.startsWith('candidate')), ...large, ...named];
   const marks = rovers.map((rover) => ({ at: toScreen(view, size, rover.pose), radius: robotPx }));
   const written = roomForLabels(labels, size, marks);

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 
 import { mapInfo } from '@/live/samples';
 
-import { bounds, fit, labelOf, pan, roomAt, roomForLabels, thingAt, toMap, toScreen, zoom } from './viewport';
+import { aside, bounds, fit, freeIn, labelOf, pan, roomAt, roomForLabels, thingAt, toMap, toScreen, zoom } from './viewport';
 
 const size = { width: 800, height: 400 };
 
@@ -67,8 +67,17 @@ describe('labels on a map', () => {
     const label = (id: string, x: number, y: number) => ({ id, text: 'front door', at: { x, y } });
     const written = roomForLabels([label('a', 200, 100), label('b', 210, 104), label('c', 200, 200), label('d', 2, 50)], size);
     expect([...written.keys()]).toEqual(['a', 'c']);
-    const beside = roomForLabels([label('a', 200, 100), { ...label('b', 210, 104), aside: 20 }], size, [{ at: { x: 210, y: 82 }, radius: 8 }]);
+    const beside = roomForLabels([label('a', 200, 100), { ...label('b', 210, 104), others: aside({ x: 210, y: 104 }, 20) }], size, [{ at: { x: 210, y: 82 }, radius: 8 }]);
     expect(beside.get('b')).toEqual({ x: 210, y: 124 }); // above it is a robot
+  });
+
+  it('put the name of a room where no thing is', () => {
+    const room = { name: 'hall', corners: [[0, 0], [8, 0], [8, 6], [0, 6]] as [number, number][] };
+    const thing = (x: number, y: number) => ({ ...mapInfo.objects[0], id: 'a', kind: 'box', description: '', x, y, width: 2, height: 1 });
+    expect(freeIn(room, [thing(1, 1)])[0]).toEqual({ x: 4, y: 3 });
+    const beside = freeIn(room, [thing(4, 3)])[0];
+    expect(Math.abs((beside?.y ?? 0) - 3)).toBeGreaterThan(0.6);
+    expect(beside?.x).toBe(4);
   });
 
   it('are those of the smallest room at a place', () => {

@@ -1,5 +1,5 @@
 /** What part of a map is on the screen. Plain functions; metres in the map, pixels on the screen. */
-import type { MapInfo, MapThing } from '@/live/types';
+import type { MapInfo, MapRoom, MapThing } from '@/live/types';
 import { bounds, type Place } from '@/ui/map-bounds';
 
 export { roomAt, thingAt } from '@/ui/map-places';
@@ -75,6 +75,9 @@ export const LONG_NAMES_SCALE = 60;
 export const labelOf = (thing: MapThing, scale: number): string =>
   (scale < LONG_NAMES_SCALE ? thing.kind || thing.description : thing.description || thing.kind).replaceAll('_', ' ');
 
+/** Parts of a room's width and depth. */
+const PARTS = [0.5, 0.35, 0.65, 0.2, 0.8];
+const ROOM_FOR_NAME_M = { x: 0.7, y: 0.15 };
 const LETTER_PX = 7;
 const LINE_PX = 16;
 
@@ -83,8 +86,8 @@ export interface Label {
   text: string;
   /** Where it would best stand. */
   at: Place;
-  /** How far above or below it may stand instead. */
-  aside?: number;
+  /** Where it may stand instead, the best first. */
+  others?: readonly Place[];
   /** Wider than others. */
   letterPx?: number;
 }
@@ -115,17 +118,34 @@ export function roomForLabels(
 ): ReadonlyMap<string, Place> {
   const taken = marks.map(({ at, radius }) => around(at, radius, 2 * radius));
   const written = new Map<string, Place>();
-  for (const { id, text, at, aside = 0, letterPx = LETTER_PX } of labels) {
-    const places = aside > 0 ? [at, { x: at.x, y: at.y - aside }, { x: at.x, y: at.y + aside }] : [at];
+  for (const { id, text, at, others = [], letterPx = LETTER_PX } of labels) {
     const half = (text.length * letterPx) / 2;
     const fits = (box: Box) =>
       box.left >= 0 && box.right <= size.width && box.top >= 0 && box.bottom <= size.height && !taken.some((other) => meet(box, other));
-    const place = places.find((one) => fits(around(one, half, LINE_PX)));
+    const place = [at, ...others].find((one) => fits(around(one, half, LINE_PX)));
     if (!place) continue;
     taken.push(around(place, half, LINE_PX));
     written.set(id, place);
   }
   return written;
+}
+
+/** Above and below a place. */
+export const aside = ({ x, y }: Place, px: number): readonly Place[] => [
+  { x, y: y - px },
+  { x, y: y + px },
+];
+
+/** Where in a room its name lies over no thing, the middle and what is near to it first. */
+export function freeIn(room: MapRoom, things: readonly MapThing[]): readonly Place[] {
+  const middle = middleOf(room);
+  const xs = room.corners.map(([x]) => x);
+  const ys = room.corners.map(([, y]) => y);
+  const between = (all: readonly number[], part: number) => Math.min(...all) + (Math.max(...all) - Math.min(...all)) * part;
+  const far = (place: Place) => Math.hypot(place.x - middle.x, place.y - middle.y);
+  const free = ({ x, y }: Place) => !things.some((one) => Math.abs(one.x - x) < one.width / 2 + ROOM_FOR_NAME_M.x && Math.abs(one.y - y) < one.height / 2 + ROOM_FOR_NAME_M.y);
+  const places = PARTS.flatMap((right) => PARTS.map((up) => ({ x: between(xs, right), y: between(ys, up) })));
+  return [middle, ...places.sort((a, b) => far(a) - far(b))].filter(free);
 }
 
 /** The middle of a room's corners. */

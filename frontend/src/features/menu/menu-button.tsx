@@ -2,6 +2,7 @@ import { useState } from 'react';
 import { Button as AriaButton, Dialog, DialogTrigger, Popover } from 'react-aria-components';
 import { useTranslation } from 'react-i18next';
 
+import { useOverlays } from '@/state/overlays';
 import { Icon } from '@/ui/icon';
 
 import css from './menu.module.css';
@@ -12,6 +13,11 @@ import { Understands } from './understands';
 export function MenuButton({ className, placement }: { className?: string | undefined; placement: 'bottom start' | 'top end' }) {
   const { t } = useTranslation('menu');
   const [open, setOpen] = useState(false);
+  const overlay = useOverlays((state) => state.set);
+  const actions = () => {
+    setOpen(false);
+    overlay('commands');
+  };
   return (
     <DialogTrigger isOpen={open} onOpenChange={setOpen}>
       <AriaButton className={className ?? ''}>
@@ -21,6 +27,10 @@ export function MenuButton({ className, placement }: { className?: string | unde
       <Popover className={css.drop ?? ''} placement={placement}>
         <Dialog aria-label={t('menu')} className={css.dropBody ?? ''}>
           <NavLinks onGo={() => setOpen(false)} />
+          <button type="button" className={css.link} onClick={actions}>
+            <Icon name="search" />
+            {t('commandsShort')}
+          </button>
           <Understands />
         </Dialog>
       </Popover>

@@ -16,6 +16,7 @@ import { isEarlier, linesOf, type Line } from '@/live/lines';
 import { withReceived } from './parameters';
 import css from './plan-panel.module.css';
 import { PolicyChoice } from '@/ui/policy-choice';
+import { UnattendedChoice } from '@/ui/unattended-choice';
 import { ProposalCard } from './proposal-card';
 import { pickPlan, proposalsOf, shownPlans } from './shown-plans';
 import { StepCard } from './step-card';
@@ -111,6 +112,7 @@ function PlanOf({ plan }: { plan: PlanView }) {
       {plan.kind === 'plan' && (
         <footer className={css.foot}>
           <PolicyChoice robot={plan.robot} />
+          <UnattendedChoice />
         </footer>
       )}
     </>
