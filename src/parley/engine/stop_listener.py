@@ -13,6 +13,7 @@ from typing import Final
 
 from parley.errors import InvalidMessageError, Problem
 from parley.gate.stop_line import StopLine
+from parley.latest import Latest
 from parley.messages import ros, topics
 from parley.messages.status import ActorStatus, StopCommand
 from parley.messages.wire import decode, to_string
@@ -22,6 +23,8 @@ __all__ = ["StopListener"]
 
 DEPTH: Final = 1000
 """So many commands may come at once; each is carried out as soon as it is read."""
+REMEMBERED: Final = 1000
+"""Of so many stops is known whether they were released."""
 
 
 class StopListener:
@@ -45,6 +48,10 @@ class StopListener:
         self._line, self._transport, self._complain, self._only = line, transport, complain, only
         self._stack = AsyncExitStack()
         self._publisher: Publisher[ros.String] | None = None
+        self._stops: Latest[str, bool] = Latest(REMEMBERED)
+        """Stops that came, by their ids, and whether a person has released one since."""
+        self._again: dict[str, str] = {}
+        """Robot -> the id under which it is told again that it was stopped while it was away."""
 
     async def open(self) -> None:
         """Listen from now on."""
@@ -71,11 +78,19 @@ class StopListener:
         if command.targets and not targets:
             return
         match command.command:
+            case "stop" if self._stops.get(command.id):
+                pass  # a copy that comes late must not undo what a person has decided since
             case "stop":
+                if command.id not in self._again.values():
+                    self._again.clear()
+                if command.id:
+                    self._stops[command.id] = False
                 self._line.pull(targets, by=command.by, id=command.id, words=command.words, wait_s=0.0)
             case "reset":
                 if problems := self._line.reset(targets, by=command.by, id=command.id):
                     self._complain(problems)
+                else:
+                    self._stops.update(dict.fromkeys(self._stops, True))
             case "hold":
                 self._line.hold(targets, id=command.id, by=command.by, words=command.words)
             case "go_on":
@@ -87,9 +102,11 @@ class StopListener:
             status = decode(ActorStatus, message.data)
         except InvalidMessageError:  # the nodes that need it say so
             return
-        free = status.state not in ("stopped", "leaving")
-        if free and self._publisher is not None and self._line.latched_elsewhere(status.actor):
-            again = StopCommand(targets=(status.actor,), id=uuid.uuid4().hex, words="stopped while away")
+        if not self._line.latched_elsewhere(status.actor):
+            self._again.pop(status.actor, None)
+        elif status.state not in ("stopped", "leaving") and self._publisher is not None:
+            id = self._again.setdefault(status.actor, uuid.uuid4().hex)
+            again = StopCommand(targets=(status.actor,), id=id, words="stopped while away")
             self._publisher.publish(to_string(again))
 
     def _ours(self, targets: Sequence[str]) -> tuple[str, ...]:
