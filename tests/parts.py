@@ -26,6 +26,11 @@ from tests.transport.backends import free_port
 
 ROBOT = "David"
 DOMAIN = 77
+ROBOT_FILE = """
+radius_m: 0.22
+limits: {max_speed_mps: 0.26, max_turn_radps: 1.8}
+topics: {detections: detections, emergency: e_stop}
+"""
 
 
 @dataclass
@@ -34,20 +39,40 @@ class Parts:
 
     folder: Path
     settings: Path
-    transport: Transport
-    operator: Observer
     port: int
     """Of the page."""
+    robot: Path | None = None
+    """What the robot behind Nav2 is like; None: it is simulated in the engine's process."""
+    speed: str = "1"
+    """Of the simulator that stands behind Nav2, where it is a part."""
     processes: dict[str, asyncio.subprocess.Process] = field(default_factory=dict)
     statuses: dict[str, ActorStatus] = field(default_factory=dict)
     """The newest heartbeat of each robot."""
     beat: asyncio.Event = field(default_factory=asyncio.Event)
     """Set with each."""
+    transport: Transport = field(init=False)
+    operator: Observer = field(init=False)
+
+    def on_status(self, message: String) -> None:
+        """A heartbeat."""
+        status = decode(ActorStatus, message.data)
+        self.statuses[status.actor] = status
+        self.beat.set()
+
+    async def end(self) -> None:
+        """No process is left."""
+        for process in self.processes.values():
+            if process.returncode is None:
+                process.kill()
+                await process.wait()
 
     async def start(self, part: str, *options: str) -> None:
         """Start a part anew; `engine` or a node."""
+        driven = [] if not self.robot else ["--robot", ROBOT, "--class", str(self.robot)]
         words = {
-            "engine": ["engine", "--world", "nursing-home", "--data", str(self.folder / "engine")],
+            "router": ["node", "router"],
+            "simulator": ["robot", "simulate", "--world", "nursing-home", "--speed", self.speed],
+            "engine": ["engine", "--world", "nursing-home", *driven, "--data", str(self.folder / "engine")],
             "agents": ["node", "agents", "--data", str(self.folder / "agents")],
             "web": ["node", "web", "--no-open", "--port", str(self.port), "--data", str(self.folder / "web")],
         }[part]
@@ -103,34 +128,46 @@ class Parts:
 
 
 @asynccontextmanager
-async def parts(folder: Path, *names: str) -> AsyncIterator[Parts]:
-    """These parts, up and running."""
+async def parts(folder: Path, *names: str, speed: str = "1") -> AsyncIterator[Parts]:
+    """These parts, up and running; where a router is among them, all meet there and nowhere else."""
     at = f"tcp/127.0.0.1:{free_port()}"
     # The operator is the one whom all others connect to, as it is the one who stays.
-    settings = folder / "parley.yaml"
-    settings.write_text(f"network: {{domain: {DOMAIN}, connect: [{at}], interface: ''}}\n", encoding="utf-8")
-    network = NetworkSettings(domain=DOMAIN, listen=(at,), interface="")
+    role, settings = "client" if "router" in names else "peer", folder / "parley.yaml"
+    network = NetworkSettings(domain=DOMAIN, role=role, connect=(at,), interface="")
+    settings.write_text(
+        f"network: {{domain: {DOMAIN}, role: {role}, connect: [{at}], interface: ''}}\n", encoding="utf-8"
+    )
+    robot = folder / "robot.yaml" if "simulator" in names else None
+    if robot is not None:
+        robot.write_text(ROBOT_FILE, encoding="utf-8")
+    made = Parts(folder, settings, free_port(), robot, speed)
     async with AsyncExitStack() as stack:
-        transport = await stack.enter_async_context(transport_of(SystemConfig(network=network)))
-        operator = await stack.enter_async_context(Observer(transport, WallClock(), print))
-        made = Parts(folder, settings, transport, operator, free_port())
-
-        def on_status(message: String) -> None:
-            status = decode(ActorStatus, message.data)
-            made.statuses[status.actor] = status
-            made.beat.set()
-
-        await transport.subscribe(topics.ACTOR_STATUS, on_status)
-        try:
-            for name in names:
+        stack.push_async_callback(made.end)
+        for name in (name for name in names if name in ("router", "simulator")):
+            await made.start(name)
+            await until_open(at)
+        if "router" not in names:
+            network = NetworkSettings(domain=DOMAIN, listen=(at,), interface="")
+        made.transport = await stack.enter_async_context(transport_of(SystemConfig(network=network)))
+        made.operator = await stack.enter_async_context(Observer(made.transport, WallClock(), print))
+        await made.transport.subscribe(topics.ACTOR_STATUS, made.on_status)
+        for name in names:
+            if name not in made.processes:
                 await made.start(name)
-            if "engine" in names:
-                await operator.until(lambda: ROBOT in operator.robots)
-            if "agents" in names:
-                await made.until_met()
-            yield made
-        finally:
-            for process in made.processes.values():
-                if process.returncode is None:
-                    process.kill()
-                    await process.wait()
+        if "engine" in names:
+            await made.operator.until(lambda: ROBOT in made.operator.robots)
+        if "agents" in names:
+            await made.until_met()
+        yield made
+
+
+async def until_open(address: str) -> None:
+    """Wait until somebody listens there."""
+    host, _, port = address.partition("/")[2].rpartition(":")
+    async with asyncio.timeout(20):
+        while True:
+            with contextlib.suppress(OSError):
+                _, writer = await asyncio.open_connection(host, int(port))
+                writer.close()
+                return
+            await asyncio.sleep(0.05)

@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import asyncio
+from contextlib import AsyncExitStack
 from pathlib import Path
+from typing import Any, Self
 
+from parley.clock import WallClock
+from parley.demos.catalogue import load_demo
+from parley.demos.runner import play
 from parley.messages import topics
 from parley.messages.principal import person
 from parley.messages.status import StopCommand
 from parley.messages.wire import to_string
+from parley.transport.base import Transport
 from tests.parts import ROBOT, parts
 
 
@@ -42,3 +48,27 @@ async def test_each_half_is_killed_under_way_and_nothing_is_lost_or_done_twice(t
         await operator.until(lambda: operator.state(ROBOT) == "idle")
         assert [step.state for step in operator.plans[ROBOT].steps][-2:] == ["finished", "finished"]
         assert (system.begun("NavigateTo"), system.begun("Inspect")) == (2, 1)
+
+
+class Apart:
+    """What a story is played on: router, simulator, engine, those who plan and the page, each a process."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder, self.clock, self.simulator = folder, WallClock(), None
+        self.robot_names, self.known = (ROBOT,), load_demo("nursing-home").objects
+        self.transport: Transport
+
+    async def __aenter__(self) -> Self:
+        self._stack = AsyncExitStack()
+        every = ("router", "simulator", "engine", "agents", "web")
+        system = await self._stack.enter_async_context(parts(self.folder, *every, speed="6"))
+        self.transport = system.transport
+        return self
+
+    async def __aexit__(self, *exc: Any) -> None:
+        await self._stack.aclose()
+
+
+async def test_the_nursing_home_is_played_by_five_processes_that_meet_at_a_router(tmp_path: Path) -> None:
+    result = await play(load_demo("nursing-home").story, lambda _: Apart(tmp_path))
+    assert result.held, result.text

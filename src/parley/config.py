@@ -246,6 +246,19 @@ class NetworkSettings(BaseModel):
         """Where others may connect."""
         return (f"{'tls' if self.tls else 'tcp'}/127.0.0.1:0",) if self.listen is None else self.listen
 
+    @property
+    def beside(self) -> NetworkSettings:
+        """Those of one more end in the same process: it reaches whom the first one reaches, and that one."""
+        ours = [address.replace("0.0.0.0", "127.0.0.1") for address in self.listen or ()]
+        return self.model_copy(update={"listen": None, "connect": (*self.connect, *ours)})
+
+    @property
+    def as_router(self) -> NetworkSettings:
+        """Those of the router that all others connect to, by their own settings."""
+        return self.model_copy(
+            update={"role": "router", "listen": self.listen or self.connect, "connect": (), "interface": ""}
+        )
+
 
 class SystemConfig(BaseModel, TextFile):
     """What may be chosen about a system; the defaults are the thesis's and the design's.

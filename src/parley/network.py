@@ -10,12 +10,13 @@ from parley.transport.local import LocalTransport
 __all__ = ["transport_of"]
 
 
-def transport_of(config: SystemConfig, *, node: str = "parley") -> Transport:
+def transport_of(config: SystemConfig, *, node: str = "parley", release: str = "") -> Transport:
     """The transport that these settings name.
 
     Args:
         config: The settings.
         node: How this process is called in a network; a bridge calls all its clients alike.
+        release: Of ROS, whose types count where releases differ; empty: the usual ones.
 
     Raises:
         MissingExtraError: What the network needs is not installed.
@@ -28,4 +29,5 @@ def transport_of(config: SystemConfig, *, node: str = "parley") -> Transport:
         return RosbridgeTransport(config.network.rosbridge, silence_s=config.network.silence_s)
     with needs("zenoh"):
         from parley.transport.zenoh import ZenohTransport
-    return ZenohTransport(config.network, node=node)
+        from parley.transport.zenoh.definitions import of_release
+    return ZenohTransport(config.network, node=node, definitions=(of_release(release),) if release else ())

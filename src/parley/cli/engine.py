@@ -32,7 +32,11 @@ def command(
     ] = None,
     kind: Annotated[
         str,
-        typer.Option("--class", metavar="MODULE:CLASS", help="Your own class of robots; also FILE.py:CLASS."),
+        typer.Option(
+            "--class",
+            metavar="MODULE:CLASS",
+            help="Your own class of robots; also FILE.py:CLASS, or FILE.yaml of robots with ROS.",
+        ),
     ] = "",
     data: Annotated[Path | None, typer.Option(help="Folder for what these robots do and find.")] = None,
     speed: Annotated[float | None, typer.Option(help="Simulated seconds per second.")] = None,
@@ -65,7 +69,7 @@ def system_of_robots(settings: SystemConfig, world: str, robots: list[str], kind
         return System(
             site.world, settings, occupancy=site.occupancy, objects=site.objects, part="robots", only=robots
         )
-    made = [made_robot(found_class(kind), name) for name in robots or ["robot"]]
+    made = [made_robot(found_class(kind, settings), name) for name in robots or ["robot"]]
     own = [robot for robot in made if isinstance(robot, RobotBase)]
     if len(own) < len(made):
         raise ConfigError(f"{kind} makes no RobotBase")

@@ -82,6 +82,17 @@ def agents(
     on_loop(run_system(System(None, settings, part="agents")))
 
 
+@app.command("router")
+def router(config: NetworkOption) -> None:
+    """Let the parts of a system find each other, and those reach each other that are clients."""
+    settings = networked(config)
+    assert settings.network is not None
+    network = settings.network.as_router
+    if settings.network.rosbridge is not None or not network.listen:
+        raise ConfigError(f"{config}: a router needs an address under `connect`, where the others find it")
+    on_loop(_route(settings.model_copy(update={"network": network})))
+
+
 def networked(file: Path) -> SystemConfig:
     """Settings with a network among them.
 
@@ -100,6 +111,13 @@ async def run_system(system: System) -> None:
         who = ", ".join(system.robot_names)
         typer.echo(f"{who} can be planned for." if who else "Robots can be talked to.")
         typer.echo("Ctrl-C ends it.")
+        await asyncio.Event().wait()
+
+
+async def _route(settings: SystemConfig) -> None:
+    assert settings.network is not None
+    async with transport_of(settings, node="parley_router"):
+        typer.echo(f"Others find each other at {', '.join(settings.network.listens)}.")
         await asyncio.Event().wait()
 
 

@@ -17,7 +17,15 @@ from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.incident import Incident
 from parley.messages.memory import MemoryEvent
 from parley.messages.ros import String
-from parley.messages.status import ActorStatus, GraphEvent, PlanProposal, PlanUpdate, Rejection, StopReport
+from parley.messages.status import (
+    ActorStatus,
+    GraphEvent,
+    PlanProposal,
+    PlanUpdate,
+    PoseInfo,
+    Rejection,
+    StopReport,
+)
 from parley.transport.base import Transport
 
 __all__ = ["Observer"]
@@ -60,6 +68,8 @@ class Observer(Node):
         self.feeds: set[tuple[str, str]] = set()
         """(robot, feed) that had a picture."""
         self.robots: set[str] = set()
+        self.poses: dict[str, PoseInfo] = {}
+        """Where each robot said last that it is."""
         self.questions = OpenQuestions()
         self._changed = asyncio.Condition()
         self._count = 0
@@ -176,9 +186,13 @@ class Observer(Node):
             await self._note("picture", robot=feed.target, feed=feed.name)
 
     async def _on_status(self, status: ActorStatus) -> None:
+        if status.pose is not None:
+            self.poses[status.actor] = status.pose
         if status.actor not in self.robots:
             self.robots.add(status.actor)
             await self._note("robot", robot=status.actor, state=status.state)
+        else:
+            await self._wake()
 
     async def _on_incident(self, incident: Incident) -> None:
         self.incidents[incident.id] = incident
@@ -199,6 +213,9 @@ class Observer(Node):
 
     async def _note(self, event: str, **facts: Any) -> None:
         self._write(event, **facts)
+        await self._wake()
+
+    async def _wake(self) -> None:
         async with self._changed:
             self._changed.notify_all()
 

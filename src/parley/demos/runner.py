@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from contextlib import AsyncExitStack
 from dataclasses import dataclass, field
-from typing import Final
+from typing import TYPE_CHECKING, Any, Final, Protocol, Self
 
+from parley.clock import Clock
 from parley.demos.observer import Emit, Observer
 from parley.demos.story import Finished, Story, StoryStep, Variant
+from parley.memory.client import recall
 from parley.messages.chat import ChatFeedback
-from parley.system import System
-from parley.world.object_map import MapObject
+from parley.messages.memory import RETURN_ALL
+from parley.transport.base import Transport
+from parley.world.object_map import MapObject, ObjectMap
 
-__all__ = ["StoryBroken", "StoryResult", "play"]
+if TYPE_CHECKING:
+    from parley.sim.simulator import Simulator
 
+__all__ = ["Played", "StoryBroken", "StoryResult", "play"]
+
+BEATS_S: Final = 3.0
+"""Wall time within which a robot surely says where it is."""
 PATIENCE_S: Final = 120.0
 """Wall time to wait for one thing to happen; a drive through a building takes seconds at full speed."""
 
@@ -52,7 +61,40 @@ class StoryResult:
     """Wall time from each message to the reply."""
 
 
-MakeSystem = Callable[[Variant], System]
+class Played(Protocol):
+    """What a story is played on: a system, in this process or not. Used as ``async with``."""
+
+    async def __aenter__(self) -> Self: ...
+
+    async def __aexit__(self, *exc: Any) -> None: ...
+
+    @property
+    def transport(self) -> Transport:
+        """Where its topics are."""
+        ...
+
+    @property
+    def clock(self) -> Clock:
+        """Robot time, or what comes nearest to it."""
+        ...
+
+    @property
+    def robot_names(self) -> tuple[str, ...]:
+        """Who is in it."""
+        ...
+
+    @property
+    def known(self) -> ObjectMap:
+        """What people may name."""
+        ...
+
+    @property
+    def simulator(self) -> Simulator | None:
+        """Its world, if it can be changed from here."""
+        ...
+
+
+MakeSystem = Callable[[Variant], Played]
 
 
 async def play(
@@ -106,7 +148,7 @@ class _Player:
     def __init__(self, story: Story, variant: Variant, make_system: MakeSystem, emit: Emit) -> None:
         self._story, self._variant, self._make_system, self._emit = story, variant, make_system, emit
         self._stack = AsyncExitStack()
-        self._system: System
+        self._system: Played
         self._observer: Observer
         self._earlier_s = 0.0
         self._heard: dict[str, int] = {}
@@ -132,7 +174,8 @@ class _Player:
         except BaseException:
             await self._stack.aclose()
             raise
-        self._system.simulator.on_event = lambda event: self._emit({"event": "world", "text": event.name})
+        if (world := self._system.simulator) is not None:
+            world.on_event = lambda event: self._emit({"event": "world", "text": event.name})
         self._heard.clear()
 
     async def _close(self) -> None:
@@ -202,8 +245,7 @@ class _Player:
             raise StoryBroken("other_plan", f"planned {list(planned())}, expected {list(wanted)}") from error
 
     async def _expect_memory(self, text: str) -> None:
-        store = self._system.store
-        entries = await store.all() if store is not None else []
+        entries = await recall(self._system.transport, RETURN_ALL)
         if not any(text.lower() in entry.data.lower() for entry in entries):
             raise StoryBroken("not_remembered", f"no memory contains “{text}”")
 
@@ -259,19 +301,27 @@ class _Player:
             if (self._robot, feed) not in observer.feeds:
                 raise StoryBroken("not_shown", f"nothing was shown on {feed}")
         if expected.near:
-            self._expect_near(expected)
+            await self._expect_near(expected)
 
-    def _expect_near(self, expected: Finished) -> None:
+    async def _expect_near(self, expected: Finished) -> None:
         thing = self._system.known.get(expected.near)
         if thing is None:
             raise StoryBroken("elsewhere", f"there is no object {expected.near}")
-        distance_m = _distance_m(self._system, self._robot, thing)
-        if distance_m > expected.within_m:
-            raise StoryBroken("elsewhere", f"the robot is {distance_m:.2f} m away from {expected.near}")
+        try:
+            await self._observer.until(lambda: self._gap_m(thing) <= expected.within_m, timeout_s=BEATS_S)
+        except TimeoutError:
+            text = f"the robot is {self._gap_m(thing):.2f} m away from {expected.near}"
+            raise StoryBroken("elsewhere", text) from None
+
+    def _gap_m(self, thing: MapObject) -> float:
+        """From the robot's middle, where it said last that it is, to the object's bounding box."""
+        pose = self._observer.poses.get(self._robot)
+        return math.inf if pose is None else thing.gap_m(pose.x, pose.y)
 
     async def _see(self, step: StoryStep) -> None:
         observer = self._observer
         if step.change is not None:
+            assert self._system.simulator is not None, "who changes the world plays where it is"
             self._system.simulator.change(step.change)
             self._emit({"event": "change", "text": step.note})
         elif step.told is not None:
@@ -337,9 +387,3 @@ class _Player:
 def _is_in(part: str, text: str) -> bool:
     """Whether one of the wordings of `part` stands in what was said."""
     return any(words.strip().lower() in text.lower() for words in part.split("|"))
-
-
-def _distance_m(system: System, robot: str, thing: MapObject) -> float:
-    """From the robot's middle to the object's bounding box."""
-    pose = system.robots[robot].pose()
-    return thing.gap_m(pose.x_m, pose.y_m)

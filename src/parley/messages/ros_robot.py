@@ -1,6 +1,7 @@
 """The ROS messages with which robots move, say where they are and what they see.
 
-Sources: geometry_msgs, nav_msgs, sensor_msgs, tf2_msgs and nav2_msgs of ROS 2, the last of several releases.
+Sources: geometry_msgs, nav_msgs, sensor_msgs, tf2_msgs, vision_msgs and nav2_msgs of ROS 2, the last of
+several releases.
 """
 
 from __future__ import annotations
@@ -12,10 +13,12 @@ from parley.messages.actions import Action
 from parley.messages.ros import Duration, Header, Time
 
 __all__ = [
-    "Bool", "Empty", "Image", "LaserScan", "MapMetaData", "NavigateGoal", "NavigateResult", "OccupancyGrid",
-    "Odometry", "Point", "Pose", "PoseStamped", "PoseWithCovariance", "PoseWithCovarianceStamped",
-    "Quaternion", "Release", "TFMessage", "Transform", "TransformStamped", "Twist", "TwistWithCovariance",
-    "Vector3", "navigate_to_pose",
+    "Bool", "BoundingBox2D", "Detection2D", "Detection2DArray", "Empty", "Image", "LaserScan",
+    "MapMetaData", "NavigateGoal", "NavigateResult",
+    "ObjectHypothesis", "ObjectHypothesisWithPose", "OccupancyGrid", "Odometry", "Point", "Point2D", "Pose",
+    "PoseStamped", "PoseWithCovariance", "PoseWithCovarianceStamped", "Quaternion", "Release", "TFMessage",
+    "Transform", "TransformStamped", "Twist", "TwistStamped", "TwistWithCovariance", "Vector3",
+    "VisionPose2D", "navigate_to_pose",
 ]  # fmt: skip
 
 Release = Literal["humble", "jazzy", "lyrical"]
@@ -102,6 +105,14 @@ class Twist:
 
     linear: Vector3 = field(default_factory=Vector3)
     angular: Vector3 = field(default_factory=Vector3)
+
+
+@dataclass(frozen=True, slots=True)
+class TwistStamped:
+    """geometry_msgs/msg/TwistStamped."""
+
+    header: Header = field(default_factory=Header)
+    twist: Twist = field(default_factory=Twist)
 
 
 @dataclass(frozen=True, slots=True)
@@ -193,6 +204,65 @@ class Image:
     is_bigendian: int = 0
     step: int = 0
     data: bytes = b""
+
+
+@dataclass(frozen=True, slots=True)
+class Point2D:
+    """vision_msgs/msg/Point2D."""
+
+    x: float = 0.0
+    y: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class VisionPose2D:
+    """vision_msgs/msg/Pose2D."""
+
+    position: Point2D = field(default_factory=Point2D)
+    theta: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class BoundingBox2D:
+    """vision_msgs/msg/BoundingBox2D, in pixels."""
+
+    center: VisionPose2D = field(default_factory=VisionPose2D)
+    size_x: float = 0.0
+    size_y: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class ObjectHypothesis:
+    """vision_msgs/msg/ObjectHypothesis."""
+
+    class_id: str = ""
+    score: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class ObjectHypothesisWithPose:
+    """vision_msgs/msg/ObjectHypothesisWithPose."""
+
+    hypothesis: ObjectHypothesis = field(default_factory=ObjectHypothesis)
+    pose: PoseWithCovariance = field(default_factory=PoseWithCovariance)
+
+
+@dataclass(frozen=True, slots=True)
+class Detection2D:
+    """vision_msgs/msg/Detection2D."""
+
+    header: Header = field(default_factory=Header)
+    results: tuple[ObjectHypothesisWithPose, ...] = ()
+    bbox: BoundingBox2D = field(default_factory=BoundingBox2D)
+    id: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Detection2DArray:
+    """vision_msgs/msg/Detection2DArray."""
+
+    header: Header = field(default_factory=Header)
+    detections: tuple[Detection2D, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -36,6 +36,8 @@ COMMAND_LIFETIME_S: Final = 0.3
 class DriveLimits:
     """What the drive can do, and what the robot keeps from obstacles."""
 
+    __pydantic_config__ = {"extra": "forbid"}  # noqa: RUF012 - for files
+
     max_speed_mps: float
     max_turn_radps: float
     max_acceleration_mps2: float = 0.5

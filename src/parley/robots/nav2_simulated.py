@@ -19,7 +19,7 @@ from parley.messages.ros_robot import Release, navigate_to_pose
 from parley.robots.base import NavigationControl, Velocity
 from parley.robots.nav2_errors import code_of
 from parley.robots.ros_senses import RosTopics
-from parley.robots.ros_values import grid_of, header, planar, pose_of, stamped, transform
+from parley.robots.ros_values import detected, grid_of, header, planar, pose_of, stamped, transform
 from parley.robots.simulated import SimulatedRobot
 from parley.sim.simulator import Simulator
 from parley.transport.actions import ActionServer, RunningGoal
@@ -202,6 +202,9 @@ class SimulatedNav2:
         else:
             told = ros.CompressedImage(top, "jpeg", await asyncio.to_thread(_jpeg, picture.data))
         self._out[names.camera].publish(told)
+        if names.detections:
+            place = ros.Header(top.stamp, names.map_frame)
+            self._out[names.detections].publish(detected(picture.detections or (), place))
 
 
 async def _ended(task: asyncio.Task[None]) -> None:

@@ -6,6 +6,7 @@ Everything here runs on the robot's link; the newest word of each is read from a
 from __future__ import annotations
 
 import asyncio
+from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
@@ -16,7 +17,7 @@ from parley.errors import ActionFailure, FailureCode, TypeMismatchError
 from parley.messages import ros, ros_robot
 from parley.messages.topics import QoS, Topic
 from parley.robots.base import CameraImage, LaserScan, Velocity
-from parley.robots.ros_values import Frames, map_of, picture_of, planar, scan_of
+from parley.robots.ros_values import Frames, detections_of, map_of, picture_of, planar, scan_of
 from parley.sentences import sentence
 from parley.transport.base import Subscription, Transport
 from parley.world.geometry import Pose2D
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
 __all__ = ["SILENT", "RosTopics", "Senses"]
 
 PICTURE_S: Final = 3.0
+PICTURES_KEPT: Final = 30
+"""So many pictures wait for what the robot's detector says of one of them."""
 WATCHED_S: Final = 5.0
 """For so long after a picture was asked for the camera is listened to: pictures are what fills a network."""
 
@@ -35,6 +38,7 @@ SILENT: Final = sentence("My base does not answer.")
 _TYPES: Final[dict[type[Any], str]] = {
     ros.CompressedImage: "sensor_msgs/msg/CompressedImage",
     ros_robot.Bool: "std_msgs/msg/Bool",
+    ros_robot.Detection2DArray: "vision_msgs/msg/Detection2DArray",
     ros_robot.Image: "sensor_msgs/msg/Image",
     ros_robot.LaserScan: "sensor_msgs/msg/LaserScan",
     ros_robot.OccupancyGrid: "nav_msgs/msg/OccupancyGrid",
@@ -42,6 +46,7 @@ _TYPES: Final[dict[type[Any], str]] = {
     ros_robot.PoseWithCovarianceStamped: "geometry_msgs/msg/PoseWithCovarianceStamped",
     ros_robot.TFMessage: "tf2_msgs/msg/TFMessage",
     ros_robot.Twist: "geometry_msgs/msg/Twist",
+    ros_robot.TwistStamped: "geometry_msgs/msg/TwistStamped",
 }
 _USUAL: Final = QoS()
 _STREAM: Final = QoS(reliable=False, depth=5)
@@ -55,6 +60,8 @@ log = structlog.get_logger(__name__)
 class RosTopics:
     """What a robot's topics and frames are called; an empty name: it has none of that."""
 
+    __pydantic_config__ = {"extra": "forbid"}  # noqa: RUF012 - for files
+
     namespace: str = ""
     """Before all names."""
     odom: str = "odom"
@@ -65,6 +72,9 @@ class RosTopics:
     scan: str = "scan"
     camera: str = "camera/image_raw/compressed"
     """Of type CompressedImage if it ends so, else Image."""
+    detections: str = ""
+    """A vision_msgs/Detection2DArray of what its own detector recognises, stamped as the picture it is of;
+    places count in `map_frame` and `base_frame`."""
     emergency: str = ""
     """A std_msgs/Bool that is true while a button on the robot holds it."""
     cmd_vel: str = "cmd_vel"
@@ -96,6 +106,7 @@ class RosTopics:
             (self.map, ros_robot.OccupancyGrid, _STATE),
             (self.scan, ros_robot.LaserScan, _STREAM),
             (self.camera, self.camera_type, PICTURES),
+            (self.detections, ros_robot.Detection2DArray, PICTURES),
             (self.emergency, ros_robot.Bool, _STATE),
         )
         return ((name, kind, qos) for name, kind, qos in every if name)
@@ -122,8 +133,9 @@ class Senses:
         self._odom: ros_robot.Odometry | None = None
         self._heard_s = 0.0
         self._sweep: tuple[ros_robot.LaserScan, float] | None = None
-        self._camera: Subscription | None = None
-        self._picture: tuple[Any, float] | None = None
+        self._camera: list[Subscription] = []
+        self._taken: deque[tuple[Any, float]] = deque(maxlen=PICTURES_KEPT)
+        self._seen: ros_robot.Detection2DArray | None = None
         self._pictures = asyncio.Condition()
         self._watched_s = 0.0
         self.occupancy: OccupancyMap | None = None
@@ -208,26 +220,54 @@ class Senses:
         """
         if not self._topics.camera:
             raise ActionFailure(FailureCode.NOT_CAPABLE, sentence("I have no camera."))
-        self._watched_s, before = self._wall_s(), self._picture
-        if self._camera is None:
-            topic = self._topics.topic(self._topics.camera, self._topics.camera_type, PICTURES)
-            self._camera = await transport.subscribe(topic, self._on_picture)
+        self._watched_s = self._wall_s()
+        if not self._camera:
+            await self._watch(transport)
+        self._taken.clear()
+        self._seen = None
+        seen: ros_robot.Detection2DArray | None = None
         try:
             async with asyncio.timeout(PICTURE_S), self._pictures:
-                await self._pictures.wait_for(lambda: self._picture is not before)
+                await self._pictures.wait_for(lambda: self._taken and self._shown() is not None)
+                seen = self._seen
         except TimeoutError:
-            raise ActionFailure(FailureCode.HARDWARE, sentence("My camera gives no picture.")) from None
-        assert self._picture is not None
-        told, stamp_s = self._picture
+            if not self._taken:
+                raise ActionFailure(FailureCode.HARDWARE, sentence("My camera gives no picture.")) from None
+            log.warning("the robot's detector says nothing", topic=self._topics.detections)
+        told, stamp_s = self._shown() or self._taken[-1]
         pixels = picture_of(told)
         height, width, _ = pixels.shape
-        return CameraImage(width, height, "rgb8", pixels, stamp_s)
+        found = None if seen is None else detections_of(seen, self._place_of(seen.header.frame_id))
+        return CameraImage(width, height, "rgb8", pixels, stamp_s, found)
+
+    async def _watch(self, transport: Transport) -> None:
+        names = self._topics
+        pictures = names.topic(names.camera, names.camera_type, PICTURES)
+        self._camera.append(await transport.subscribe(pictures, self._on_picture))
+        if names.detections:
+            found = names.topic(names.detections, ros_robot.Detection2DArray, PICTURES)
+            self._camera.append(await transport.subscribe(found, self._on_detections))
+
+    def _shown(self) -> tuple[Any, float] | None:
+        """The newest picture; with a detector, the one of which it spoke last."""
+        if not self._topics.detections:
+            return self._taken[-1]
+        stamp = self._seen.header.stamp if self._seen is not None else None
+        return next((one for one in self._taken if one[0].header.stamp == stamp), None)
+
+    def _place_of(self, frame: str) -> Pose2D | None:
+        """Where a frame stands on the map, as far as it lies flat: cameras do not."""
+        names = self._topics
+        if frame not in (names.map_frame, names.base_frame):
+            return None
+        return Pose2D(0.0, 0.0) if frame == names.map_frame else self._pose()
 
     async def rest(self) -> None:
         """Listen to the camera no more if nobody wanted a picture for a while."""
-        if self._camera is not None and self._wall_s() - self._watched_s > WATCHED_S:
-            camera, self._camera = self._camera, None
-            await camera.close()
+        if self._camera and self._wall_s() - self._watched_s > WATCHED_S:
+            camera, self._camera = self._camera, []
+            for end in camera:
+                await end.close()
 
     def _on_frames(self, told: ros_robot.TFMessage) -> None:
         self._frames.learn(told)
@@ -259,5 +299,10 @@ class Senses:
 
     async def _on_picture(self, told: Any) -> None:
         async with self._pictures:
-            self._picture = told, self._now_s()
+            self._taken.append((told, self._now_s()))
+            self._pictures.notify_all()
+
+    async def _on_detections(self, told: ros_robot.Detection2DArray) -> None:
+        async with self._pictures:
+            self._seen = told
             self._pictures.notify_all()

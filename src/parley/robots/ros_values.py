@@ -15,11 +15,13 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from parley.robots.base import LaserScan
+    from parley.robots.base import Detection, LaserScan
     from parley.world.occupancy import OccupancyMap
 
 __all__ = [
     "Frames",
+    "detected",
+    "detections_of",
     "grid_of",
     "map_of",
     "picture_of",
@@ -145,6 +147,54 @@ def scan_of(told: ros_robot.LaserScan, stamp_s: float) -> LaserScan:
     with np.errstate(invalid="ignore"):
         ranges[~((ranges >= told.range_min) & (ranges <= told.range_max))] = np.inf
     return LaserScan(told.angle_min, told.angle_increment, ranges, told.range_max, stamp_s)
+
+
+def detections_of(told: ros_robot.Detection2DArray, at: Pose2D | None) -> tuple[Detection, ...]:
+    """What a detector recognised, the largest first.
+
+    Args:
+        told: Its words; of several for one thing the most certain counts.
+        at: Where the frame of its places stands on the map; None: that is not known, so no places are.
+    """
+    from parley.robots.base import Detection
+
+    found = []
+    for one in (one for one in told.detections if one.results):
+        best = max(one.results, key=lambda result: result.hypothesis.score)
+        where = best.pose.pose.position
+        place = None if at is None or where == ros_robot.Point() else _joined(at, Pose2D(where.x, where.y))
+        middle, width, height = one.bbox.center.position, one.bbox.size_x, one.bbox.size_y
+        left, top = round(middle.x - width / 2), round(middle.y - height / 2)
+        found.append(
+            Detection(
+                best.hypothesis.class_id,
+                round(width * height),
+                (left, top, left + round(width), top + round(height)),
+                None,
+                None if place is None else place.x_m,
+                None if place is None else place.y_m,
+                confidence=best.hypothesis.score,
+            )
+        )
+    return tuple(sorted(found, key=lambda one: -one.pixels))
+
+
+def detected(seen: tuple[Detection, ...], top: ros.Header) -> ros_robot.Detection2DArray:
+    """The same as ROS has it, with places in the frame of the header."""
+
+    def told(one: Detection) -> ros_robot.Detection2D:
+        left, upper, right, lower = one.box
+        middle = ros_robot.VisionPose2D(ros_robot.Point2D((left + right) / 2, (upper + lower) / 2))
+        where = ros_robot.Pose(ros_robot.Point(one.x_m or 0.0, one.y_m or 0.0))
+        score = 1.0 if one.confidence is None else one.confidence
+        result = ros_robot.ObjectHypothesisWithPose(
+            ros_robot.ObjectHypothesis(one.label, score), ros_robot.PoseWithCovariance(where)
+        )
+        return ros_robot.Detection2D(
+            top, (result,), ros_robot.BoundingBox2D(middle, right - left, lower - upper)
+        )
+
+    return ros_robot.Detection2DArray(top, tuple(map(told, seen)))
 
 
 def picture_of(told: ros.CompressedImage | ros_robot.Image) -> NDArray[np.uint8]:
