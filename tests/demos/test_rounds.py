@@ -12,8 +12,8 @@ from tests.demos.house import played
 
 ROUNDS = ("parking", "warehouse")
 BREAKS = {
-    "parking": ("nobody_comes", "bag_in_a", "dead_camera"),
-    "warehouse": ("no_package", "package_in_a", "clear_already"),
+    "parking": ("nobody_comes", "bag_in_a", "dead_camera", "closed_off"),
+    "warehouse": ("no_package", "package_in_a", "clear_already", "closed_off"),
 }
 
 

@@ -73,7 +73,9 @@ def command(
         float | None,
         typer.Option(help="Simulated seconds per second; default: 1 when chatting, full speed for scripts."),
     ] = None,
-    seed: Annotated[int | None, typer.Option(help="Seed of the simulation's noise.")] = None,
+    seed: Annotated[
+        int | None, typer.Option(help="Another run: other start poses, noise and times of events.")
+    ] = None,
     config: ConfigOption = None,
     data: Annotated[
         Path | None, typer.Option(help="Folder for memories; default: kept for chatting, fresh for scripts.")

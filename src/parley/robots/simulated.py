@@ -22,6 +22,7 @@ from parley.robots.base import (
 )
 from parley.robots.navigator import Navigator
 from parley.sim.simulator import Simulator
+from parley.sim.starts import started
 from parley.sim.world_file import WorldFile
 from parley.world.geometry import Pose2D
 from parley.world.occupancy import OccupancyMap
@@ -167,7 +168,7 @@ class SimulatedFleet:
     Args:
         world: What there is.
         speed: Robot time per wall time; None: as fast as the machine can.
-        seed: For the noise of sensors.
+        seed: For the noise of sensors and times of events; not 0: for where robots begin, too.
         occupancy: The map they drive by; None: surveyed from the world as it is.
     """
 
@@ -180,7 +181,7 @@ class SimulatedFleet:
         occupancy: OccupancyMap | None = None,
     ) -> None:
         self.clock = SimClock()
-        self.simulator = Simulator(world, clock=self.clock, speed=speed, seed=seed)
+        self.simulator = Simulator(started(world, seed), clock=self.clock, speed=speed, seed=seed)
         self._given = occupancy
         self._surveyed: dict[str, OccupancyMap] = {}
 

@@ -40,6 +40,8 @@ __all__ = ["RobotEntry", "Thing", "WorldChanges", "WorldFile"]
 
 _MAX_AREA_M2: Final = 100_000
 _MAX_INSIDE: Final = 50
+_PAINT_M: Final = 0.01
+"""What is no higher is driven over."""
 
 
 class WorldFile(Entry, TextFile):
@@ -168,21 +170,31 @@ class WorldFile(Entry, TextFile):
                 if name not in known:
                     raise FileFormatError(file, f"{field}.{name}", f"the world {self.name!r} has no {name!r}")
 
-    def _check_starts(self, file: str) -> None:
-        """Refuse robots that start inside something: physics would throw them about."""
+    def in_the_way(self, robot: RobotEntry, room_m: float = 0.0) -> str:
+        """What is nearer than `room_m` to a robot where it starts, or in it; empty: nothing."""
         solids = [
             (f"walls[{index}]", solid) for index, wall in enumerate(self.walls) for solid in wall.solids()
         ]
         solids += [
             (thing.name, solid) for thing in self.things for solid in thing.solids(self.base_of(thing))
         ]
+        reach_m = robot.model.radius_m + room_m
+        near = (
+            name
+            for name, solid in solids
+            if solid.z_m < robot.model.height_m
+            and solid.z_m + solid.size_m[2] > _PAINT_M
+            and solid.distance_m(robot.pose[0], robot.pose[1]) < reach_m
+        )
+        return next(near, "")
+
+    def _check_starts(self, file: str) -> None:
+        """Refuse robots that start inside something: physics would throw them about."""
         for index, robot in enumerate(self.robots):
-            for name, solid in solids:
-                free_m = solid.distance_m(robot.pose[0], robot.pose[1])
-                if solid.z_m < robot.model.height_m and free_m < robot.model.radius_m:
-                    raise FileFormatError(
-                        file, f"robots[{index}].pose", f"{robot.name!r} would start in {name!r}"
-                    )
+            if name := self.in_the_way(robot):
+                raise FileFormatError(
+                    file, f"robots[{index}].pose", f"{robot.name!r} would start in {name!r}"
+                )
 
     def _check_events(self, file: str) -> None:
         """Refuse events that cannot happen: what they change has to be there, one after the other."""
