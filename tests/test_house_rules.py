@@ -30,7 +30,8 @@ EVERYDAY_WORDS = {
     "small", "large", "little", "tall", "big", "long", "low", "round", "left", "right", "middle", "front",
     "back", "first", "corner", "end", "side", "head", "foot", "counter", "desk", "window", "stand", "screen",
     "set", "tree", "top", "shelf", "books", "north", "east", "south", "west",
-    "area", "component", "dock", "loading", "b", "c", "black", "blue", "green", "grey", "red", "white",
+    "area", "component", "dock", "charging", "loading",
+    "b", "c", "black", "blue", "green", "grey", "red", "white",
 }  # fmt: skip
 """Words of the demonstrations' data that programs and neutral examples need as well."""
 

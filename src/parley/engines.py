@@ -24,6 +24,7 @@ from parley.engine.presence import is_at_rest
 from parley.engine.services import ContextServices
 from parley.engine.unfinished import Unfinished
 from parley.engine.watchdog import LoopWatchdog
+from parley.errors import ActionFailure
 from parley.gate.book import RuleBook
 from parley.gate.stop_line import StopLine
 from parley.language.base import Language
@@ -67,8 +68,7 @@ class WorldView:
     def taken(self) -> tuple[Spot, ...]:
         """See `parley.actions.context.World.taken`."""
         others = [robot for name, robot in self.engines.robots.items() if name != self.robot]
-        here = [(robot.pose(), robot.radius_m) for robot in others]
-        return (*((pose.x_m, pose.y_m, radius_m) for pose, radius_m in here), *self._claimed)
+        return (*(spot for robot in others for spot in _standing(robot)), *self._claimed)
 
     @property
     def _claimed(self) -> tuple[Spot, ...]:
@@ -277,3 +277,12 @@ class Engines:
         areas = view.objects.areas
         await enter(MapViews(transport, robot, view.occupancy.name, clock, areas))
         await enter(MapFeed(transport, robot, view.occupancy, view.objects.objects, clock))
+
+
+def _standing(robot: Robot) -> tuple[Spot, ...]:
+    """Where a robot stands, if it knows."""
+    try:
+        pose = robot.pose()
+    except ActionFailure:
+        return ()
+    return ((pose.x_m, pose.y_m, robot.radius_m),)

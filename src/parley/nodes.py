@@ -12,6 +12,7 @@ from typing import Final, Literal, Self, TypeVar
 
 from parley.agents.audit_log import AuditLog
 from parley.agents.base import Node
+from parley.agents.batteries import Batteries
 from parley.agents.calls.calls import Calls
 from parley.agents.chat.chat_interface import ChatInterface
 from parley.agents.display.display_interface import DisplayInterface
@@ -158,6 +159,7 @@ class Nodes:
         # Only now: whoever is told a plan may answer at once, and has to be heard.
         await enter(self._speaking(planner))
         await enter(self._speaking(Lookout(transport, clock)))
+        await enter(Batteries(transport, self._tell_for))
         absent = UnattendedPlans(transport, clock, config.unattended, config.unattended_after_s)
         await enter(self._speaking(absent))
         await enter(self._speaking(self._notices))

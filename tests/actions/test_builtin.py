@@ -31,6 +31,7 @@ def test_parameters_are_those_of_the_thesis() -> None:
         "Wait": ({"duration": "number"}, {}),
         "Say": ({"text": "string", "to": "string"}, {}),
         "Follow": ({"person": "string", "duration": "number"}, {}),
+        "Dock": ({}, {}),
     }
 
 
@@ -39,7 +40,7 @@ def test_effects_say_who_moves_and_who_asks() -> None:
         "GetCoordinates": ("locates",), "NavigateTo": ("moves",), "Inspect": ("looks",),
         "AskOperator": ("asks_operator",), "KeepPicture": ("remembers",), "MoveBy": ("moves",),
         "TurnBy": ("turns",), "TakePicture": ("looks", "shows"), "Wait": ("waits",),
-        "Say": ("speaks",), "Follow": ("follows", "moves"),
+        "Say": ("speaks",), "Follow": ("follows", "moves"), "Dock": ("moves",),
     }  # fmt: skip
 
 

@@ -165,7 +165,7 @@ async def test_looking_at_nothing_in_particular_never_misses_anything() -> None:
 
 
 async def test_broken_camera_is_a_hardware_failure_and_nothing_is_shown() -> None:
-    async with room({"camera": {"A": "broken"}}) as here:
+    async with room({"robots": {"A": {"camera": "broken"}}}) as here:
         with pytest.raises(ActionFailure) as caught:
             await inspect(here.context, "the crate")
         assert caught.value.code is FailureCode.HARDWARE

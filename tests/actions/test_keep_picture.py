@@ -32,7 +32,7 @@ async def test_picture_without_a_name_gets_one() -> None:
 
 
 async def test_broken_camera_is_a_hardware_failure_and_nothing_is_remembered() -> None:
-    async with room({"camera": {"A": "broken"}}) as here:
+    async with room({"robots": {"A": {"camera": "broken"}}}) as here:
         with pytest.raises(ActionFailure) as caught:
             await keep_picture(here.context, "gate")
         assert caught.value.code is FailureCode.HARDWARE

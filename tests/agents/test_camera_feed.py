@@ -44,7 +44,7 @@ async def test_pictures_come_while_somebody_watches_and_stop_with_them() -> None
 async def test_broken_camera_is_tried_again_and_disturbs_nothing() -> None:
     pictures: list[CompressedImage] = []
     async with running(load_demo("nursing-home").system(QUICK)) as home:
-        home.system.simulator.change({"camera": {home.robot: "broken"}})
+        home.system.simulator.change({"robots": {home.robot: {"camera": "broken"}}})
         await home.system.transport.subscribe(display_topic(home.robot, FEED), pictures.append)
         assert (await home.say("what can you do?")).type == "response"
         assert pictures == []

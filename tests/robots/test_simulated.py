@@ -275,7 +275,7 @@ async def test_robot_time_stands_still_while_a_picture_is_drawn() -> None:
 
 
 async def test_a_broken_camera_is_a_hardware_failure_and_driving_still_works() -> None:
-    async with robot_in({"camera": {"A": "broken"}}) as (robot, _):
+    async with robot_in({"robots": {"A": {"camera": "broken"}}}) as (robot, _):
         with pytest.raises(ActionFailure) as caught:
             await robot.image()
         assert caught.value.code is FailureCode.HARDWARE

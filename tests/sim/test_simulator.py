@@ -204,11 +204,11 @@ async def test_an_impossible_change_changes_nothing(simulator: Simulator) -> Non
 
 
 async def test_a_broken_camera_gives_no_picture_until_it_is_mended(simulator: Simulator) -> None:
-    simulator.change({"camera": {"A": "broken"}})
+    simulator.change({"robots": {"A": {"camera": "broken"}}})
     assert not simulator.camera_works("A")
     with pytest.raises(RuntimeError, match="camera"):
         await simulator.photograph("A")
-    simulator.change({"camera": {"A": "working"}})
+    simulator.change({"robots": {"A": {"camera": "working"}}})
     assert (await simulator.photograph("A")).frame.rgb.shape == (240, 320, 3)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from parley.errors import FileFormatError
-from parley.sim.entries import Doorway, Thing, Wall
+from parley.sim.entries import Doorway, RobotState, Thing, Wall
 from parley.sim.robot_model import PRESETS
 from parley.sim.world_file import WorldChanges, WorldFile
 from tests.sim.worlds import TWO_ROOMS, box, two_rooms
@@ -121,7 +121,9 @@ def test_what_stands_inside_something_moves_and_disappears_with_it() -> None:
 def test_changes_leave_the_world_they_are_made_from_as_it_was() -> None:
     world = two_rooms()
     changed = world.with_changes(
-        WorldChanges(remove=("crate_1",), move={"A": (2.0, 2.0, 1.0)}, camera={"A": "broken"})
+        WorldChanges(
+            remove=("crate_1",), move={"A": (2.0, 2.0, 1.0)}, robots={"A": RobotState(camera="broken")}
+        )
     )
     assert (changed.things, changed.robot("A").pose, changed.robot("A").camera) == (
         (),
@@ -138,8 +140,8 @@ def test_changes_leave_the_world_they_are_made_from_as_it_was() -> None:
         ({"remove": ["A"]}, "remove.A"),
         ({"move": {"B": (0, 0, 0)}}, "move.B"),
         ({"move": {"A": (0, 0)}}, "move.A[2]"),
-        ({"camera": {"crate_1": "broken"}}, "camera.crate_1"),
-        ({"camera": {"A": "tired"}}, "camera.A"),
+        ({"robots": {"crate_1": {"camera": "broken"}}}, "robots.crate_1"),
+        ({"robots": {"A": {"camera": "tired"}}}, "robots.A.camera"),
         ({"destroy": ["crate_1"]}, "destroy"),
         ({"add": [box("crate_1", 1, 1)]}, "things[1].name"),
         ({"add": [box("b", 1, 1, inside="nothing")]}, "things[1].inside"),

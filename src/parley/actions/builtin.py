@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from parley.actions.ask_operator import ask_operator
+from parley.actions.dock import dock
 from parley.actions.follow import follow
 from parley.actions.get_coordinates import get_coordinates
 from parley.actions.inspect import inspect
@@ -31,5 +32,6 @@ BUILTIN_ACTIONS: tuple[ActionSpec, ...] = tuple(
         wait,
         say,
         follow,
+        dock,
     )
 )

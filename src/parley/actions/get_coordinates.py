@@ -15,7 +15,7 @@ from parley.world.approach import approach_pose
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["Coordinates", "get_coordinates"]
+__all__ = ["Coordinates", "get_coordinates", "spot_at"]
 
 _TRIES: Final = 4
 
@@ -50,7 +50,7 @@ async def get_coordinates(ctx: ActionContext, target: str) -> Coordinates:
     except LanguageError as error:
         raise ActionFailure(FailureCode.UNAVAILABLE, "I cannot look up places just now.") from error
     thing = _single(target, grounding)
-    spot = await _spot(ctx, thing, here)
+    spot = await spot_at(ctx, thing, here)
     if spot is None:
         side = "in" if thing.area else "in front of"
         raise ActionFailure(
@@ -61,7 +61,7 @@ async def get_coordinates(ctx: ActionContext, target: str) -> Coordinates:
     return Coordinates(Pose.of(spot))
 
 
-async def _spot(ctx: ActionContext, thing: MapObject, here: Pose2D) -> Pose2D | None:
+async def spot_at(ctx: ActionContext, thing: MapObject, here: Pose2D) -> Pose2D | None:
     """A free spot, kept for this robot; another one if somebody took it while it was looked for."""
     spot = None
     for _ in range(_TRIES):

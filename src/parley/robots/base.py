@@ -131,7 +131,7 @@ class Robot(Protocol):
 
     @property
     def capabilities(self) -> frozenset[str]:
-        """What it has: `drive`, `camera`, `lidar`, `sees_people`, `loudspeaker`, ..."""
+        """What it has: `drive`, `camera`, `lidar`, `sees_people`, `loudspeaker`, `charges`, ..."""
         ...
 
     @property
@@ -140,7 +140,11 @@ class Robot(Protocol):
         ...
 
     def pose(self) -> Pose2D:
-        """Where it believes it is, in the map frame."""
+        """Where it believes it is, in the map frame.
+
+        Raises:
+            ActionFailure: `hardware`: it does not know.
+        """
         ...
 
     def velocity(self) -> Velocity:

@@ -21,6 +21,7 @@ from parley.robots.base import (
     Velocity,
 )
 from parley.robots.navigator import Navigator
+from parley.sentences import sentence
 from parley.sim.simulator import Simulator
 from parley.sim.starts import started
 from parley.sim.world_file import WorldFile
@@ -55,7 +56,9 @@ class SimulatedRobot:
     @property
     def capabilities(self) -> frozenset[str]:
         """See `Robot.capabilities`."""
-        return frozenset({"drive", "lidar"} | ({"camera", "sees_people"} if self._model.camera else set()))
+        has = {"drive", "lidar"} | ({"camera", "sees_people"} if self._model.camera else set())
+        docks = any(thing.charges for thing in self._simulator.world.things)
+        return frozenset(has | ({"charges"} if docks and self.battery() is not None else set()))
 
     @property
     def radius_m(self) -> float:
@@ -68,7 +71,13 @@ class SimulatedRobot:
         return self._simulator.stopped(self.name)
 
     def pose(self) -> Pose2D:
-        """See `Robot.pose`."""
+        """See `Robot.pose`.
+
+        Raises:
+            ActionFailure: `hardware`: it does not know.
+        """
+        if not self._simulator.knows_where(self.name):
+            raise ActionFailure(FailureCode.HARDWARE, sentence("I do not know where I am."))
         return self._simulator.pose(self.name)
 
     def velocity(self) -> Velocity:
@@ -85,13 +94,17 @@ class SimulatedRobot:
         return self._navigator.way_ahead() if self._navigator is not None else ()
 
     def battery(self) -> float | None:
-        """See `Robot.battery`: it empties evenly over the model's endurance while anything is to be done."""
-        if self._model.endurance_s is None:
-            return None
-        return max(0.0, 1.0 - self._simulator.worked_s / self._model.endurance_s)
+        """See `Robot.battery`."""
+        return self._simulator.battery(self.name).told
 
     def drive(self, velocity: Velocity) -> None:
-        """See `Robot.drive`; does nothing while halted."""
+        """See `Robot.drive`; does nothing while halted.
+
+        Raises:
+            ActionFailure: `hardware`: the battery is empty.
+        """
+        if velocity != Velocity() and self._simulator.battery(self.name).is_empty:
+            raise ActionFailure(FailureCode.HARDWARE, sentence("My battery is empty, so I cannot drive."))
         self._simulator.command(self.name, velocity)
 
     @property

@@ -29,6 +29,7 @@ __all__ = [
     "Name",
     "Part",
     "RobotEntry",
+    "RobotState",
     "Thing",
     "Wall",
     "WorldChanges",
@@ -141,6 +142,8 @@ class Thing(Entry):
     """Height of its underside above the floor."""
     inside: Name | None = None
     """The thing it stands in or on; it moves and disappears with that."""
+    charges: bool = False
+    """Whether it charges the robots that stand at it."""
     front_rad: float | None = None
     """Direction its usable side faces, in its own frame."""
     parts: tuple[Part, ...] = Field(min_length=1)
@@ -166,14 +169,27 @@ class Thing(Entry):
             )  # fmt: skip
 
 
-class RobotEntry(Entry):
+class RobotState(Entry):
+    """How a robot is, apart from where; what is left out stays, or is as in a sound robot."""
+
+    camera: Literal["working", "broken"] = "working"
+    localisation: Literal["working", "lost"] = "working"
+    """Whether it knows where it is."""
+    slip: float = Field(default=0.0, ge=0, le=0.5)
+    """Share of what each wheel turns that is lost on the floor, on average."""
+    lidar_noise_m: float | None = Field(default=None, ge=0, le=1)
+    """Standard deviation of a range; None: as its model has it."""
+    battery: float | None = Field(default=None, ge=0, le=1)
+    """How full it is from now on; None: full at the start."""
+
+
+class RobotEntry(RobotState):
     """A robot and where it starts."""
 
     name: Name
     model: Annotated[RobotModel, BeforeValidator(_preset)]
     """A preset's name or a description."""
     pose: PoseTuple
-    camera: Literal["working", "broken"] = "working"
 
 
 class WorldChanges(Entry):
@@ -184,8 +200,8 @@ class WorldChanges(Entry):
     add: tuple[Thing, ...] = ()
     move: dict[str, PoseTuple] = Field(default_factory=dict)
     """Things or robots and their other poses."""
-    camera: dict[str, Literal["working", "broken"]] = Field(default_factory=dict)
-    """Robots and the state of their cameras."""
+    robots: dict[str, RobotState] = Field(default_factory=dict)
+    """Robots, and what is different about them: faults that come or go, how full a battery is."""
     cancel: tuple[Name, ...] = ()
     """Events that do not happen."""
 

@@ -6,7 +6,7 @@
       - {name: somebody leaves a parcel, near: {thing: gate_1, within_m: 3}, delay_s: [2, 6],
          change: {add: [{name: parcel_1, pose: [2, 3, 0], parts: [{size_m: [0.4, 0.3, 0.3]}]}]}}
       - {name: it is taken away, after: somebody leaves a parcel, delay_s: 60, change: {remove: [parcel_1]}}
-      - {name: the lights fail, at_s: 120, change: {camera: {Ada: broken}}}
+      - {name: the lights fail, at_s: 120, change: {robots: {Ada: {camera: broken}}}}
 
 Seconds are robot time; of a range the seed chooses. Each happens once.
 """

@@ -35,6 +35,7 @@ def sweep(
     body_id: int,
     pose: Pose2D,
     lidar: LidarModel,
+    noise_m: float,
     rng: np.random.Generator,
     stamp_s: float,
 ) -> Sweep:
@@ -47,7 +48,7 @@ def sweep(
         model, data, (pose.x_m, pose.y_m, lidar.mount_height_m), beams.ravel(), None, 1, body_id,
         geoms, distances, None, lidar.beams, lidar.range_m,
     )  # fmt: skip
-    noisy = distances + rng.normal(0.0, lidar.noise_m, lidar.beams) if lidar.noise_m else distances
+    noisy = distances + rng.normal(0.0, noise_m, lidar.beams) if noise_m else distances
     hit = (geoms >= 0) & (distances <= lidar.range_m)
     ranges = np.where(hit, np.maximum(noisy, 0.0), np.inf).astype(np.float32)
     return Sweep(ranges, lidar.range_m, stamp_s)

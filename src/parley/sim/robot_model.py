@@ -56,6 +56,8 @@ class RobotModel(_Part):
     max_turn_acceleration_radps2: float = Field(default=3.0, gt=0)
     endurance_s: float | None = Field(default=None, gt=0)
     """How long a full battery lasts; None: the robot cannot tell how full it is."""
+    charging_s: float = Field(default=1800.0, gt=0)
+    """In how long an empty battery fills at a dock."""
     base_height_m: float | None = Field(default=None, gt=0)
     """Up to where it is as wide as its radius; above is a slim body. None: a little over half its height."""
     legs: bool = False

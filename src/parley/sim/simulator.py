@@ -30,6 +30,7 @@ from parley.sim.floor_plan import bounds_m, survey
 from parley.sim.keeper import Keeper
 from parley.sim.lidar import Sweep, sweep
 from parley.sim.people import people_in_sight
+from parley.sim.power import Battery, charges
 from parley.sim.robot_model import RobotModel
 from parley.sim.world_file import WorldChanges, WorldFile
 from parley.world.geometry import Pose2D, Velocity, wrap_angle
@@ -78,11 +79,18 @@ class _Base:
     """Joints and actuators of robot i are numbers 3i to 3i + 2."""
     body_id: int
     rng: np.random.Generator
+    battery: Battery
     command: Velocity = STILL
     commanded_at_s: float = 0.0
     stopped: bool = False
     guard: Guard | None = None
     last_sweep: Sweep | None = None
+
+    @property
+    def lidar_noise_m(self) -> float:
+        """Of a range, as it is now."""
+        more = self.entry.lidar_noise_m
+        return self.entry.model.lidar.noise_m if more is None else more
 
     @property
     def slots(self) -> slice:
@@ -101,7 +109,7 @@ class Simulator:
             world: What there is.
             clock: Robot time, moved on by this simulator alone.
             speed: Robot time per wall time; None: as fast as the machine can.
-            seed: For the noise of sensors.
+            seed: For the noise of sensors, slipping wheels and times of events.
         """
         if speed is not None and speed <= 0:
             raise ValueError("speed must be positive, or None for as fast as possible")
@@ -115,15 +123,17 @@ class Simulator:
         self._drawing: ThreadPoolExecutor | None = None
         self._artist: RayCaster | None = None
         self._world = world
-        self.worked_s = 0.0
-        """For how much of robot time anybody had something to do; the rest costs no battery."""
         self._events = Events(world.events, seed)
         self.on_event: Callable[[WorldEvent], None] = lambda _: None
         """Told of everything that happens in the world by itself."""
         self._load(world)
         self._bases = {
             entry.name: _Base(
-                entry, index, self._body_id(robot_body(entry.name)), np.random.default_rng([seed, index])
+                entry,
+                index,
+                self._body_id(robot_body(entry.name)),
+                np.random.default_rng([seed, index]),
+                Battery(entry.model, entry.battery),
             )
             for index, entry in enumerate(world.robots)
         }
@@ -230,6 +240,7 @@ class Simulator:
                     base.body_id,
                     self.pose(robot),
                     base.entry.model.lidar,
+                    base.lidar_noise_m,
                     base.rng,
                     now_s,
                 )
@@ -237,7 +248,15 @@ class Simulator:
 
     def camera_works(self, robot: str) -> bool:
         """Whether the robot's camera gives pictures."""
-        return self._world.robot(robot).camera == "working"
+        return self._bases[robot].entry.camera == "working"
+
+    def knows_where(self, robot: str) -> bool:
+        """Whether the robot can tell where it is."""
+        return self._bases[robot].entry.localisation == "working"
+
+    def battery(self, robot: str) -> Battery:
+        """The robot's battery."""
+        return self._bases[robot].battery
 
     def people(self, robot: str) -> tuple[tuple[str, float, float], ...]:
         """Which people the robot's camera sees and where, nearest first; none where it gives no pictures."""
@@ -272,7 +291,7 @@ class Simulator:
     # -- the world ------------------------------------------------------------------------------------
 
     def change(self, changes: WorldChanges | Mapping[str, Any]) -> None:
-        """Change the world now: remove, add and move things, put robots elsewhere, break or mend cameras.
+        """Change the world now: remove, add and move things, put robots elsewhere, let faults come or go.
 
         Raises:
             FileFormatError: A change is malformed or names something that is not there.
@@ -288,6 +307,10 @@ class Simulator:
             for base in self._bases.values():
                 base.body_id = self._body_id(robot_body(base.entry.name))
                 base.last_sweep = None
+                base.entry = world.robot(base.entry.name)
+                told = changes.robots.get(base.entry.name)
+                if told is not None and told.battery is not None:
+                    base.battery.charge = told.battery
                 if base.entry.name in changes.move:
                     self._data.qpos[base.slots] = changes.move[base.entry.name]
                     self._data.qvel[base.slots] = 0.0
@@ -383,10 +406,16 @@ class Simulator:
             return bool(np.abs(self._data.qvel).max() > _REST_MPS)
 
     def _step(self) -> None:
-        self.worked_s += BATCH_S if self._busy() else 0.0
+        self._use_batteries(self._busy())
         self._step_world(self._clock.now_s())
         self._clock.advance(BATCH_S)
         self._happen()
+
+    def _use_batteries(self, works: bool) -> None:
+        for name, base in self._bases.items():
+            rests = self.commanded(name) == STILL
+            charged = rests and charges(self._world, base.entry.model, self.pose(name))
+            base.battery.pass_time(BATCH_S, works=works, charged=charged)
 
     def _happen(self) -> None:
         """Let happen what is due."""
@@ -414,7 +443,7 @@ class Simulator:
                 if expired:
                     base.command = STILL
                 brakes = expired or base.stopped
-                told = STILL if brakes else self._guarded(base)
+                told = STILL if brakes else _slipped(self._guarded(base), base.entry, base.rng)
                 self._data.ctrl[base.slots] = told.linear_mps, told.lateral_mps, told.angular_radps
                 self._model.actuator_forcerange[base.slots] = self._forces[base.slots] * (
                     BRAKING if brakes else 1.0
@@ -454,6 +483,20 @@ class Simulator:
             return base.command
         name = base.entry.name
         return base.guard(self.pose(name), self.velocity(name), base.command)
+
+
+def _slipped(told: Velocity, robot: RobotEntry, rng: np.random.Generator) -> Velocity:
+    """What becomes of a command on a slippery floor: each side loses another share of it."""
+    if not robot.slip or told == STILL:
+        return told
+    left, right, aside = 1.0 - rng.uniform(0.0, 2 * robot.slip, 3)
+    arm_m = robot.model.radius_m
+    wheels = (
+        (told.linear_mps - arm_m * told.angular_radps) * left,
+        (told.linear_mps + arm_m * told.angular_radps) * right,
+    )
+    turn = (wheels[1] - wheels[0]) / (2 * arm_m)
+    return Velocity(float(sum(wheels) / 2), float(turn), float(told.lateral_mps * aside))
 
 
 def _turned(joints: NDArray[np.float64], aside_rad: float) -> Pose2D:

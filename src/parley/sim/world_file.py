@@ -30,7 +30,7 @@ from pydantic import Field
 
 from parley.errors import FileFormatError
 from parley.files import TextFile, parse_yaml, validated
-from parley.sim.entries import Colour, Entry, Name, RobotEntry, Thing, Wall, WorldChanges
+from parley.sim.entries import Colour, Entry, Name, RobotEntry, RobotState, Thing, Wall, WorldChanges
 from parley.sim.events import WorldEvent
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject, ObjectMap
@@ -87,10 +87,7 @@ class WorldFile(Entry, TextFile):
         ]
         robots = [
             robot.model_copy(
-                update={
-                    "pose": changes.move.get(robot.name, robot.pose),
-                    "camera": changes.camera.get(robot.name, robot.camera),
-                }
+                update={"pose": changes.move.get(robot.name, robot.pose)} | _told(changes, robot.name)
             )
             for robot in self.robots
         ]
@@ -163,7 +160,7 @@ class WorldFile(Entry, TextFile):
         for field, names, known in (
             ("remove", changes.remove, things),
             ("move", changes.move, things | robots),
-            ("camera", changes.camera, robots),
+            ("robots", changes.robots, robots),
             ("cancel", changes.cancel, {event.name for event in self.events}),
         ):
             for name in names:
@@ -269,3 +266,9 @@ class WorldFile(Entry, TextFile):
                     problem = "contains itself" if holder in chain else "is not a thing of this world"
                     raise FileFormatError(file, f"things[{index}].inside", f"{holder!r} {problem}")
                 chain.append(holder)
+
+
+def _told(changes: WorldChanges, robot: str) -> dict[str, Any]:
+    """What of a robot's state changes."""
+    state = changes.robots.get(robot, RobotState())
+    return {name: getattr(state, name) for name in state.model_fields_set}

@@ -69,9 +69,9 @@ class MapViews(Node):
         told, quiet_s = None, 0.0
         while True:
             await watched.wait()
-            view = view_of(self._robot, self._map_name, self._clock.unix_ms(), self._areas)
-            where = (view.pose, view.path)
-            if where != told or quiet_s >= RESTING_INTERVAL_S:
+            view = _known(self._robot, self._map_name, self._clock.unix_ms(), self._areas)
+            where = (view.pose, view.path) if view is not None else told
+            if view is not None and (where != told or quiet_s >= RESTING_INTERVAL_S):
                 told, quiet_s = where, 0.0
                 self.publish(topics.MAP_VIEW, view)
             # A pose is measured, not announced: it has to be looked up.
@@ -117,10 +117,20 @@ class MapFeed(Node):
         )
         while True:
             await watched.wait()
-            view = view_of(self._robot, self._map.name, self._clock.unix_ms())
-            image = await asyncio.to_thread(_png, picture, view)
-            self.publish(topics.DISPLAY_FEED, DisplayFeed(target=self._robot.name, name=FEED, image=image))
+            view = _known(self._robot, self._map.name, self._clock.unix_ms())
+            if view is not None:
+                image = await asyncio.to_thread(_png, picture, view)
+                feed = DisplayFeed(target=self._robot.name, name=FEED, image=image)
+                self.publish(topics.DISPLAY_FEED, feed)
             await asyncio.sleep(PICTURE_INTERVAL_S)
+
+
+def _known(robot: Robot, map_name: str, unix_ms: int, areas: Sequence[MapArea] = ()) -> MapView | None:
+    """The same, or None while the robot does not know where it is."""
+    try:
+        return view_of(robot, map_name, unix_ms, areas)
+    except ActionFailure:
+        return None
 
 
 def view_of(robot: Robot, map_name: str, unix_ms: int, areas: Sequence[MapArea] = ()) -> MapView:

@@ -144,11 +144,7 @@ class Builder(Ways):
         said = [word for filler in wish.all("E") for word in filler.words]
         self.left_out += tuple(word for word in said if word not in self.lexicon.classes["excepting"])
         for filler in wish.fillers:
-            itself = filler.words[-1] in ("yourself", "itself") and wish.frame in (
-                "CONNECT",
-                "DISC",
-                "CHARGE",
-            )
+            itself = filler.words[-1] in _ITSELF.get(wish.frame, ())
             if filler.role in "OE" or (filler.role == "T" and itself):
                 continue
             value = self.value(wish, filler)
@@ -398,7 +394,8 @@ class Builder(Ways):
                     return Ask(f"I cannot {gloss} with “{value.said}”. Can you say it otherwise?")
                 arguments[slot], said[role] = given, value.said
                 continue
-            way = self.nearing(value) if role in "SL" and "GO" in self.skills else None
+            there = role in "SL" or wish.frame == "CHARGE"
+            way = self.nearing(value) if there and "GO" in self.skills else None
             if isinstance(way, list):
                 before += way
             elif wish.frame in _LOOSE or (value.argument == "operator" and wish.frame not in _TOLD):
@@ -471,6 +468,9 @@ _CLAUSE = frozenset(
 )
 """Words with which a description begins that is more than a name."""
 _RETURNING = frozenset({"go", "come", "get", "head", "drive", "return"})
+_ITSELF = {frame: frozenset({"yourself", "itself"}) for frame in ("CONNECT", "DISC")}
+_ITSELF["CHARGE"] = frozenset({"yourself", "itself", "battery", "batteries"})
+"""What is not a thing but the robot that does it, by frame."""
 _TO_ME = frozenset({"bring", "fetch", "get", "retrieve", "go", "give", "want", "find"})
 """Verbs of bringing that mean the speaker if nobody is named."""
 _ONCE = frozenset({"SAY", "ASK", "WAIT", "TURN", "MOVE", "CONNECT", "DISC", "MIX", "ANSWER", "FOLLOW"})
