@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
 from parley.clock import WallClock
 from parley.engine.engine import ActionEngine
 from parley.messages import ros, topics
 from parley.transport.local import LocalTransport
-from parley.umrf.action import RunHandle, action
+from parley.umrf.action import Action, RunHandle, action
 from parley.umrf.catalogue import Catalogue
 from tests.umrf.spec_actions import join_text
 
@@ -44,3 +45,37 @@ async def test_heartbeats_follow_the_catalogue_and_what_a_robot_lacks_is_neither
             await rig.until(lambda: rig.rejections)
     assert [problem.code for problem in rig.rejections[0].problems] == ["not_capable"]
     assert rig.events == []
+
+
+async def test_a_graph_that_is_known_by_content_has_its_own_name_and_data_and_follows_the_catalogue() -> None:
+    seen: list[str] = []
+
+    def visit(who: str) -> Action[..., Any]:
+        @action(name="Visit")
+        async def visit(ctx: RunHandle, doors: list[str]) -> None:
+            seen.append(f"{who} {ctx.graph_name} {doors}")
+            doors.pop()
+            if ctx.graph_name == "second" and len(seen) == 2:
+                raise ConnectionError
+
+        return visit
+
+    doors = {"doors": {"pvf_type": "strings", "pvf_value": ["red", "blue"]}}
+    node = {"name": "Visit", "type": "sync", "input_parameters": doors, "parley": {"retries": 1}}
+    catalogue = Catalogue([visit("old").spec])
+    async with LocalTransport() as transport:
+        rig = Rig(transport, DummyRobot())
+        await rig.listen()
+        async with ActionEngine(
+            "A", transport=transport, catalogue=catalogue, clock=WallClock(), make_context=lambda run: run
+        ):
+            for name in ("first", "second", "third"):
+                if name == "third":
+                    catalogue.replace([visit("new").spec])
+                graph = {"graph_name": name, "actions": [node]}
+                start = transport.publisher(topics.GRAPH_START)
+                start.publish(ros.UmrfGraphStart("", json.dumps(graph), ("A",)))
+                await rig.until(lambda: [e.state for e in rig.events].count("FINISHED") == 2)
+                rig.events.clear()
+    both = "['red', 'blue']"
+    assert seen == [f"{who} {both}" for who in ("old first", "old second", "old second", "new third")]

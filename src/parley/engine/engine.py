@@ -46,7 +46,7 @@ from parley.umrf.action import RunHandle
 from parley.umrf.catalogue import Catalogue, info_of
 from parley.umrf.check import reasons
 from parley.umrf.executor import STOP_TIMEOUT_S, GraphRun
-from parley.umrf.io import read_loaded, write_descriptor, write_graph
+from parley.umrf.io import read_known, read_loaded, write_descriptor, write_graph
 from parley.umrf.model import NOTHING, Graph, Result
 from parley.umrf.motion import Motions
 from parley.umrf.node_run import NodeRun
@@ -368,8 +368,9 @@ class ActionEngine:
         if not message.umrf_graph_json:
             self.start(message.umrf_graph_name)
             return
-        graph, journal = read_loaded(raw), self._journal
-        with journal.read_from(graph.name, message.umrf_graph_json) if journal else nullcontext():
+        text, journal = message.umrf_graph_json, self._journal
+        graph = read_known(raw, text)
+        with journal.read_from(graph.name, text) if journal else nullcontext():
             self.start(graph)
 
     def _modify(self, message: ros.UmrfGraphModify, raw: Raw) -> None:

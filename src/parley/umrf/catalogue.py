@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any, Self, cast
 
@@ -40,6 +40,8 @@ class Catalogue:
         self._graphs: dict[str, Graph] = {}
         self._told: list[tuple[ActionInfo, ...]] = []
         """What `infos` gave last, or nothing; shared by the views of `for_robot`."""
+        self.resolved: dict[object, tuple[Graph, tuple[Node, ...], Sequence[ActionSpec]]] = {}
+        """For `check.resolve`: graphs as read, merged, and what runs their nodes; shared likewise."""
         self.replace(specs, graphs)
 
     def replace(self, specs: Iterable[ActionSpec], graphs: Iterable[Graph] = ()) -> None:
@@ -51,6 +53,7 @@ class Catalogue:
             cast("dict[str, Any]", kept).clear()
             cast("dict[str, Any]", kept).update(found)
         self._told.clear()
+        self.resolved.clear()
 
     def for_robot(self, capabilities: Iterable[str]) -> Self:
         """The same catalogue, changes to come included, as it is for a robot with these capabilities."""

@@ -15,7 +15,7 @@ from parley.messages.pvf import SEPARATOR, Parameter, Parameters
 from parley.umrf.action import ActionSpec
 from parley.umrf.catalogue import Catalogue, merge
 from parley.umrf.graph_index import GraphSpec, given_name
-from parley.umrf.io import UnreadableGraphError
+from parley.umrf.io import KEPT_GRAPHS, UnreadableGraphError
 from parley.umrf.model import (
     ENTRY,
     EXIT,
@@ -33,6 +33,9 @@ __all__ = ["check", "doubts", "reasons", "resolve"]
 
 MAX_LEVELS: Final = 30
 """How many graphs may be inside of each other."""
+
+KEPT_ACTIONS: Final = 100
+"""What was found about larger graphs is not kept."""
 
 _OF_NAMES = frozenset({"unknown_action", "not_capable", "reserved_name", "duplicate_node"})
 """Codes of problems that no value can have caused."""
@@ -66,18 +69,29 @@ def resolve(
     actor: str = "",
     known_actors: Collection[str] = (),
     given: Collection[str] = (),
-) -> tuple[Graph, list[ActionSpec]]:
+) -> tuple[Graph, Sequence[ActionSpec]]:
     """The graph merged with the descriptors (7.3), and what runs each of its nodes; arguments as of `check`.
+
+    What was found about the very same nodes before is not looked for again.
 
     Raises:
         GraphRefusedError: With every reason why it cannot run.
     """
+    alone, key = not (known_actors or given), (id(graph.nodes), actor, catalogue.capabilities)
+    known = catalogue.resolved.get(key) if alone else None
+    if known is not None and (graph.entry, graph.exit) == (known[0].entry, known[0].exit):
+        return replace(graph, nodes=known[1]), known[2]
     checker = _Checker(graph, catalogue, actor, known_actors, given)
     if problems := checker.problems():
         raise GraphRefusedError(graph.name, problems)
     found = zip(graph.nodes, checker.specs, strict=True)
     specs = [RemoteSpec.of(node) if spec is None else spec for node, spec in found]
-    return replace(graph, nodes=tuple(map(merge, graph.nodes, specs))), specs
+    nodes = tuple(map(merge, graph.nodes, specs))
+    if alone and len(nodes) <= KEPT_ACTIONS and not checker.levels:
+        if len(catalogue.resolved) == KEPT_GRAPHS:
+            catalogue.resolved.clear()
+        catalogue.resolved[key] = graph, nodes, specs
+    return replace(graph, nodes=nodes), specs
 
 
 def doubts(graph: Graph, catalogue: Catalogue) -> list[Problem]:

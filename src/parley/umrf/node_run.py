@@ -161,7 +161,8 @@ class NodeRun:
         self.last_log = ""
         self.item = item
         """The node; another object once the graph is modified."""
-        self._values = dict(item.values)
+        values = item.values.items()  # lists are its own: what it does to them must not reach the graph
+        self._values = {name: value[:] if type(value) is list else value for name, value in values}
         self._loop = asyncio.get_running_loop()
         self._thread = threading.get_ident()
         self._going = _GOING
