@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import queue
 import threading
+from typing import Any
 
 import pytest
 
@@ -30,6 +32,24 @@ async def test_work_that_hangs_holds_up_nothing_and_its_thread_comes_back() -> N
     assert await hung not in others
     await asyncio.gather(abandoned, return_exceptions=True)
     assert abandoned.cancelled()
+
+
+async def test_what_returns_while_the_loop_is_busy_wakes_it_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    loop, free, woken = asyncio.get_running_loop(), threading.Event(), queue.SimpleQueue[object]()
+    wake = loop.call_soon_threadsafe
+
+    def note(*args: Any) -> asyncio.Handle:
+        woken.put(args)
+        return wake(*args)
+
+    monkeypatch.setattr(loop, "call_soon_threadsafe", note)
+    busy = [asyncio.create_task(in_thread("busy", free.wait, 5)) for _ in range(5)]
+    await asyncio.sleep(0)
+    free.set()
+    while len(room._returns[loop]._settle) < 5:  # the loop does nothing else meanwhile
+        threading.Event().wait(0.001)
+    assert await asyncio.gather(*busy) == [True] * 5
+    assert woken.qsize() == 1
 
 
 def test_a_thread_outlives_the_loop_it_worked_for() -> None:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import contextvars
+import functools
 import os
 import queue
 import threading
+from collections import deque
 from collections.abc import Callable
 from typing import Any, Final, TypeVar
+from weakref import WeakKeyDictionary
 
 __all__ = ["IDLE", "in_thread"]
 
@@ -24,6 +26,33 @@ _idle: list[_Thread] = []
 """The newest is taken first, so that what is too many ends."""
 if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_idle.clear)  # a copy of a process has none of its threads
+
+
+class _Returns:
+    """What was returned to one loop; many at once wake it once."""
+
+    def __init__(self) -> None:
+        self._settle: deque[Callable[[], None]] = deque()
+        self._woken = False
+
+    def put(self, loop: asyncio.AbstractEventLoop, settle: Callable[[], None]) -> None:
+        """Have `settle` called on the loop; from any thread."""
+        self._settle.append(settle)
+        if not self._woken:
+            self._woken = True
+            try:
+                loop.call_soon_threadsafe(self._take)
+            except RuntimeError:  # the loop is closed: nobody waits any more
+                self._woken = False
+                self._settle.clear()
+
+    def _take(self) -> None:
+        self._woken = False  # first, so that what comes from now on wakes it again
+        while self._settle:
+            self._settle.popleft()()
+
+
+_returns: WeakKeyDictionary[asyncio.AbstractEventLoop, _Returns] = WeakKeyDictionary()
 
 
 class _Thread(threading.Thread):
@@ -68,7 +97,7 @@ async def in_thread(name: str, function: Callable[..., T], /, *args: Any, **kwar
         thread = _idle.pop()
     except IndexError:
         thread = _Thread()
-        thread.start()
+    returns = _returns.setdefault(loop, _Returns())
 
     def settle(result: Any, error: BaseException | None) -> None:
         if done.cancelled():
@@ -89,9 +118,10 @@ async def in_thread(name: str, function: Callable[..., T], /, *args: Any, **kwar
             error = caught
         thread.name = IDLE
         _idle.append(thread)  # before it is told, so that what follows finds it
-        with contextlib.suppress(RuntimeError):  # the loop is closed: nobody waits any more
-            loop.call_soon_threadsafe(settle, result, error)
+        returns.put(loop, functools.partial(settle, result, error))
         result = error = None  # what was raised knows this frame: without this a circle
 
     thread.work.put(work)
+    if thread.ident is None:  # new: its work is there when it begins
+        thread.start()
     return await done
