@@ -255,9 +255,17 @@ async def test_quit_leaves() -> None:
         assert session.shown.endswith("Goodbye.\n")
 
 
-async def test_estonian_is_spoken() -> None:
+async def test_estonian_is_spoken_and_what_is_sent_back_stays_as_it_was() -> None:
     async with opened(lang="et") as session:
         assert "Ada on kohal." in session.shown
+        session.robots.tell(topics.PLAN, plan(step("go to the box", "running")))
+        await session.shows("mine kohta box (praegu)")
+        session.robots.ask("Which one do you mean: the box or the gate?", "go to the box")
+        await session.shows("Millist sa mõtled: box või gate?")
+        await session.shows("1. mine kohta box")
+        session.type("1")
+        await until(lambda: bool(session.robots.inputs))
+        assert session.robots.inputs[-1].message == "go to the box"
 
 
 async def test_prepared_lines_wait_for_each_other_and_for_the_robot() -> None:

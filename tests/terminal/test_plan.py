@@ -9,10 +9,7 @@ from hypothesis import strategies as st
 from parley.messages.chat import ActionCall
 from parley.messages.status import PlanUpdate
 from parley.terminal.plan import Progress, bar, compare, label, lines_of, plan_rows, step_row
-from parley.terminal.texts import Texts
 from tests.terminal.robots import call, plan, step
-
-TEXTS = Texts("en")
 
 
 def flat(rows: list[list[tuple[str, str]]]) -> list[str]:
@@ -35,19 +32,19 @@ def test_a_step_reads_as_its_reason_or_else_as_the_words_of_its_action(
 
 
 def test_a_step_shows_its_number_icon_and_state_in_words() -> None:
-    assert step_row(step("ask", "waiting"), TEXTS, number=1) == "? 1. ask (waiting for you)"
-    assert step_row(step("open the box", "finished"), TEXTS, number=2) == "✓ open the box (done)"
+    assert step_row(step("ask", "waiting"), "en", number=1) == "? 1. ask (waiting for you)"
+    assert step_row(step("open the box", "finished"), "en", number=2) == "✓ open the box (done)"
 
 
 def test_a_running_step_shows_how_far_it_is() -> None:
     running = step("drive", "running", node="n_0")
-    shown = flat(plan_rows([running], TEXTS, Progress("n_0", 0.5, "1.2 m")))
+    shown = flat(plan_rows([running], "en", Progress("n_0", 0.5, "1.2 m")))
     assert shown == [" ▶ drive  ████████░░░░░░░░ 50 %  1.2 m"]
 
 
 def test_progress_of_another_step_is_not_shown() -> None:
     running = step("drive", "running", node="n_0")
-    assert flat(plan_rows([running], TEXTS, Progress("n_1", 0.5, "1.2 m"))) == [" ▶ drive  now"]
+    assert flat(plan_rows([running], "en", Progress("n_1", 0.5, "1.2 m"))) == [" ▶ drive  now"]
 
 
 @given(st.floats(-1, 2), st.integers(1, 40))
@@ -61,14 +58,14 @@ def test_a_bar_always_has_its_width(fraction: float, width: int) -> None:
 def test_the_step_that_runs_is_always_among_the_shown_rows(total: int, over: int) -> None:
     over = min(over, total)
     steps = [step(f"s{i}", "finished" if i < over else "queued") for i in range(total)]
-    rows = flat(plan_rows(steps, TEXTS, max_rows=6))
+    rows = flat(plan_rows(steps, "en", max_rows=6))
     assert len(rows) <= 7
     if over < total:
         assert any(f" s{over} " in row for row in rows)
 
 
 def test_rows_that_do_not_fit_are_counted() -> None:
-    rows = flat(plan_rows([step(f"s{i}") for i in range(9)], TEXTS, max_rows=6))
+    rows = flat(plan_rows([step(f"s{i}") for i in range(9)], "en", max_rows=6))
     assert rows[-1].strip() == "and 3 more"
 
 

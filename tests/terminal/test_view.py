@@ -13,14 +13,13 @@ from parley.messages.status import (
     RejectionProblem,
     StopReport,
 )
-from parley.terminal.texts import Texts
 from parley.terminal.view import LOST_AFTER_S, OperatorView
 from tests.terminal.robots import call, plan, step
 
 
 @pytest.fixture
 def view() -> OperatorView:
-    made = OperatorView(Texts("en"))
+    made = OperatorView()
     made.on_status(ActorStatus(actor="Ada"), 100.0)
     return made
 
@@ -30,7 +29,7 @@ def toolbar(view: OperatorView) -> list[str]:
 
 
 def test_the_first_robot_that_appears_is_the_one_spoken_to() -> None:
-    view = OperatorView(Texts("en"))
+    view = OperatorView()
     assert view.current is None
     lines = view.on_status(ActorStatus(actor="Ada"), 0.0)
     assert [line.text for line in lines] == ["Ada is here."]
@@ -218,7 +217,7 @@ def test_a_proposal_that_was_replaced_is_not_asked_about_any_more(view: Operator
 def test_an_emergency_stop_of_somebody_else_is_told_and_shown(view: OperatorView) -> None:
     lines = view.on_stop_report(StopReport(actor="Ada", state="received"))
     assert [line.text for line in lines] == [
-        'Ada is stopping. To let it move again: /reset, then "carry on".'
+        "Ada is stopping. To let it move again: /reset, then “carry on”."
     ]
     assert toolbar(view) == [" Ada: stopped, /reset lets it move again"]
     assert [line.text for line in view.on_stop_report(StopReport(actor="Ada", state="at_rest"))] == [

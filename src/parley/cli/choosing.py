@@ -10,17 +10,32 @@ import typer
 from parley.config import SystemConfig, language_name
 from parley.errors import ConfigError
 from parley.memory.embedder import KEY_VARIABLE
+from parley.sentences import LANGUAGES, SpokenLanguage
 
 __all__ = [
     "ConfigOption",
     "EmbeddingsKeyOption",
     "EmbeddingsOption",
     "KeyFileOption",
+    "LangOption",
     "LanguageOption",
     "chosen_settings",
     "embedding_settings",
     "language_settings",
+    "spoken",
 ]
+
+
+def spoken(text: str) -> SpokenLanguage:
+    """A language in which robots speak.
+
+    Raises:
+        ConfigError: There is none of that name.
+    """
+    if text not in LANGUAGES:
+        raise ConfigError(f"there is no language {text!r}; there are: {', '.join(LANGUAGES)}")
+    return text
+
 
 ConfigOption = Annotated[
     Path | None,
@@ -31,6 +46,13 @@ LanguageOption = Annotated[
 ]
 KeyFileOption = Annotated[
     Path | None, typer.Option(help="File with the model's key; default: the provider's environment variable.")
+]
+LangOption = Annotated[
+    str | None,
+    typer.Option(
+        help=f"What an operator at the terminal reads ({', '.join(LANGUAGES)}); default: see LANG.",
+        parser=spoken,
+    ),
 ]
 EmbeddingsOption = Annotated[
     str, typer.Option(help="Find memories by what they mean, too: model@address of a server for embeddings.")

@@ -15,6 +15,7 @@ from parley.cli.choosing import (
     EmbeddingsKeyOption,
     EmbeddingsOption,
     KeyFileOption,
+    LangOption,
     LanguageOption,
     embedding_settings,
     language_settings,
@@ -90,7 +91,7 @@ def command(
     key_file: KeyFileOption = None,
     embeddings: EmbeddingsOption = "",
     embeddings_key_file: EmbeddingsKeyOption = None,
-    lang: Annotated[str, typer.Option(help="Language of the terminal: en or et.")] = "",
+    lang: LangOption = None,
     verbose: Annotated[bool, typer.Option("--verbose", help="Show the log.")] = False,
 ) -> None:
     """Run a demonstration, or your own world: no ROS, no key, no GPU, no network."""
@@ -173,9 +174,9 @@ def data_folder(name: str) -> Path:
     return (Path(base) if base else Path.home() / ".local" / "share") / "parley" / name
 
 
-async def _chat(demo: Demo, config: SystemConfig, lang: str) -> None:
+async def _chat(demo: Demo, config: SystemConfig, lang: str | None) -> None:
     async with demo.system(config) as system:
-        client = TerminalClient(system.transport, lang=lang or _language())
+        client = TerminalClient(system.transport, lang=lang)
         broken_off = await client.run(greeting=list(demo.examples), engine=system.language.label)
     if broken_off:
         raise typer.Exit(128 + signal.SIGINT)
@@ -202,7 +203,3 @@ async def _serve(
         if system.store is not None and system.store.notice:
             typer.echo(system.store.notice)
         await serve_until_interrupted(server, opens=opens)
-
-
-def _language() -> str:
-    return "et" if os.environ.get("LANG", "").startswith("et") else "en"

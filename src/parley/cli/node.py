@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from parley.cli.choosing import LangOption
 from parley.cli.on_loop import on_loop
 from parley.cli.output import quiet_logs
 from parley.cli.web import (
@@ -40,7 +41,7 @@ NetworkOption = Annotated[
 @app.command("terminal")
 def terminal(
     config: NetworkOption,
-    lang: Annotated[str, typer.Option(help="Language of the terminal: en or et.")] = "en",
+    lang: LangOption = None,
 ) -> None:
     """Chat with the robots of another process or machine."""
     quiet_logs()
@@ -121,7 +122,7 @@ async def _route(settings: SystemConfig) -> None:
         await asyncio.Event().wait()
 
 
-async def _chat(settings: SystemConfig, lang: str) -> None:
+async def _chat(settings: SystemConfig, lang: str | None) -> None:
     async with transport_of(settings, node="parley_terminal") as transport:
         broken_off = await TerminalClient(transport, lang=lang).run()
     if broken_off:

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from parley.cli.choosing import spoken
 from parley.cli.output import emit_json
 from parley.clock import WallClock
 from parley.errors import ConfigError
@@ -32,7 +33,7 @@ RulesPath = Annotated[
     Path, typer.Argument(help="A rules.yaml, or the data folder of a system that holds it.")
 ]
 Json = Annotated[bool, typer.Option("--json", help="One JSON object per line.")]
-Spoken = Annotated[str, typer.Option("--language", help="`en` or `et`.")]
+Spoken = Annotated[str, typer.Option("--language", help="`en` or `et`.", parser=spoken)]
 
 _DRIVE = ActionInfo(name="drive", effects=("moves",))
 
@@ -53,18 +54,11 @@ def _rules(path: Path) -> RuleSet:
     return rules
 
 
-def _language(text: str) -> SpokenLanguage:
-    if text not in ("en", "et"):
-        raise ConfigError(f"there is no language {text!r}: say en or et")
-    return "et" if text == "et" else "en"
-
-
 @app.command()
 def show(path: RulesPath, language: Spoken = "en", json: Json = False) -> None:
     """List all rules in words."""
-    spoken = _language(language)
     for rule in _rules(path).rules:
-        text = in_language(rule_text(rule), spoken)
+        text = in_language(rule_text(rule), language)
         if json:
             emit_json({"text": text} | rule.model_dump(mode="json", by_alias=True, exclude_defaults=True))
         else:
@@ -106,7 +100,7 @@ def try_drive(
     zones = [book.shape(rule) for rule in book.closed_to(robot, by)]
     ways = way_planner(floor, zones, radius_m=radius) if floor is not None else None
     judged = book.judge_plan(robot=robot, steps=steps, by=by, pose=Pose2D(*_point(start)), path=ways)
-    _tell(judged, _language(language), json=json)
+    _tell(judged, language, json=json)
     if judged.forbidden:
         raise typer.Exit(1)
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import os
 import sys
 import uuid
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import structlog
 
@@ -16,16 +17,16 @@ from parley.messages.chat import ChatInput
 from parley.messages.memory import MemoryEntry
 from parley.messages.principal import person
 from parley.messages.status import PlanDecision, StopCommand
+from parley.sentences import LANGUAGES, SpokenLanguage, in_language
 from parley.terminal.commands import Command, compose, help_rows, parse, suggest
 from parley.terminal.console import Console, ConsoleEvents, PlainConsole
 from parley.terminal.lines import Fragments, Line
 from parley.terminal.link import Link
 from parley.terminal.prompt import PromptConsole
-from parley.terminal.texts import Texts, choose_language
-from parley.terminal.view import OperatorView, RobotView
+from parley.terminal.view import MOODS, OperatorView, RobotView
 from parley.transport.base import Transport
 
-__all__ = ["TerminalClient", "console_for"]
+__all__ = ["TerminalClient", "console_for", "language_of"]
 
 log = structlog.get_logger(__name__)
 
@@ -35,6 +36,15 @@ _FIRST_ROBOT_TIMEOUT_S = 10.0
 _REPLY_TIMEOUT_S = 30.0
 _QUIET_S = 0.5
 _EVERYBODY = "all"
+_STOPPED = "Emergency stop for {robot}. To let it move again: /reset, then “carry on”."
+_STOPPED_ALL = "Emergency stop for all robots. To let them move again: /reset all, then “carry on”."
+
+
+def language_of(environ: Mapping[str, str]) -> SpokenLanguage:
+    """The language of the environment, as far as it is known here, else English."""
+    named = environ.get("LC_ALL") or environ.get("LC_MESSAGES") or environ.get("LANG") or ""
+    code = named.split("_")[0].split(".")[0].lower()
+    return code if code in LANGUAGES else "en"
 
 
 def console_for(events: ConsoleEvents) -> Console:
@@ -47,7 +57,7 @@ class TerminalClient:
 
     Args:
         transport: Opened by the caller; only what is opened here is closed here.
-        lang: Code of the language of the terminal's own words; empty takes that of the environment.
+        lang: What the operator reads; None takes the language of the environment.
         console: Makes the console; the default looks at standard input and output.
         clock: For everything that waits; all of it is wall time.
     """
@@ -56,13 +66,12 @@ class TerminalClient:
         self,
         transport: Transport,
         *,
-        lang: str = "",
+        lang: SpokenLanguage | None = None,
         console: Callable[[ConsoleEvents], Console] = console_for,
         clock: Clock | None = None,
     ) -> None:
         self._clock = clock if clock is not None else WallClock()
-        self._texts = Texts(choose_language(lang))
-        self._view = OperatorView(self._texts)
+        self._view = OperatorView(lang or language_of(os.environ))
         self._link = Link(transport, self._view, self._show, self._clock)
         self._console = console(self)
         self._changed = asyncio.Event()
@@ -92,14 +101,14 @@ class TerminalClient:
             ticker = asyncio.create_task(self._tick(), name="terminal-tick")
             stack.push_async_callback(_cancel, ticker)
             await self._converse()
-            self._note("goodbye")
+            self._note("Goodbye.")
         return self._broken_off
 
     # What the console asks (see `ConsoleEvents`).
 
     def prompt(self) -> str:
         """What stands before the operator's words."""
-        return f"{self._texts('you')} → {self._view.selected}: " if self._view.selected else "> "
+        return f"{self._view.say('You')} → {self._view.selected}: " if self._view.selected else "> "
 
     def toolbar(self) -> list[Fragments]:
         """The rows of the live view."""
@@ -119,7 +128,7 @@ class TerminalClient:
         if self._broken_off:
             return True
         self.emergency_stop()
-        self._note("interrupt_hint")
+        self._note("Press Ctrl-C again to leave.")
         return False
 
     def emergency_stop(self) -> None:
@@ -144,10 +153,10 @@ class TerminalClient:
     async def _say(self, text: str) -> None:
         robot = self._view.current
         if robot is None:
-            self._note("no_robot")
+            self._note("No robot has answered yet, so nobody was told.")
             return
         replies = self._view.replies
-        message = compose(robot, text, self._texts, uuid.uuid4().hex)
+        message = compose(robot, text, uuid.uuid4().hex)
         self._echo(message, text)
         self._link.send(message)
         self._remind(robot, message)
@@ -158,14 +167,21 @@ class TerminalClient:
     def _echo(self, message: ChatInput | PlanDecision, text: str) -> None:
         """Say what became of the operator's words where that is not what they typed."""
         if isinstance(message, ChatInput) and message.message != text:
-            self._console.show([Line("said", message.message, speaker=self._texts("you"))])
+            self._console.show([Line("said", message.message, speaker=self._view.say("You"))])
 
     def _remind(self, robot: RobotView, message: ChatInput | PlanDecision) -> None:
         """After an answer, show what else the robot still waits for."""
         open_question = robot.question
         if isinstance(message, ChatInput) and message.type == "response" and open_question is not None:
             self._console.show(
-                [Line("asked", open_question.text, speaker=robot.name, choices=open_question.choices)]
+                [
+                    Line(
+                        "asked",
+                        in_language(open_question.text, self._view.language),
+                        speaker=robot.name,
+                        choices=self._view.choices(open_question.choices),
+                    )
+                ]
             )
 
     async def _settle(self, robot: RobotView, replies: int) -> None:
@@ -193,15 +209,21 @@ class TerminalClient:
         elif command.name in self._commands:
             self._commands[command.name](command.argument)
         elif suggestion := suggest(command.name):
-            self._note("did_you_mean", command=f"/{command.name}", suggestion=f"/{suggestion}")
+            self._note(
+                "There is no command {command}. Did you mean {suggestion}?",
+                command=f"/{command.name}",
+                suggestion=f"/{suggestion}",
+            )
         else:
-            self._note("unknown_command", command=f"/{command.name}")
+            self._note(
+                "There is no command {command}. /help shows what there is.", command=f"/{command.name}"
+            )
 
     def _help(self, _: str) -> None:
-        rows = [Line("step", row) for row in help_rows(self._texts)]
-        self._note("help_intro")
+        rows = [Line("step", row) for row in help_rows(self._view.language)]
+        self._note("Write what you want in your own words. Numbers answer questions with numbered choices.")
         self._console.show(rows)
-        self._note("help_keys")
+        self._note("Ctrl-C or Esc Esc is the emergency stop too; Ctrl-C twice leaves.")
 
     def _plan(self, _: str) -> None:
         robot = self._current()
@@ -213,13 +235,13 @@ class TerminalClient:
         if robot is None:
             return
         if argument == "on":
-            self._note("asks_first", robot=robot.name)
+            self._note("{robot} will ask before it begins a new plan.", robot=robot.name)
             decision = PlanDecision(target=robot.name, decision="policy", policy="ask_first")
         elif argument == "off":
-            self._note("runs_at_once", robot=robot.name)
+            self._note("{robot} will begin new plans at once.", robot=robot.name)
             decision = PlanDecision(target=robot.name, decision="policy", policy="run_at_once")
         else:
-            self._note("approve_usage")
+            self._note("/approve on: be asked before a plan begins; /approve off: plans begin at once.")
             return
         self._link.send(decision)
 
@@ -234,7 +256,7 @@ class TerminalClient:
         robot = self._view.current
         is_for_all = argument.lower() == _EVERYBODY or (robot is None and command == "stop")
         if robot is None and not is_for_all:
-            self._note("no_robot")
+            self._note("No robot has answered yet, so nobody was told.")
             return
         message = StopCommand(
             command="stop" if command == "stop" else "reset",
@@ -246,45 +268,47 @@ class TerminalClient:
         self._link.send(message)
         if command == "stop":
             self._view.note_own_stop(message.id, message.targets)
-            self._note("stop_sent_all" if is_for_all else "stop_sent", robot=self._view.selected)
+            self._note(_STOPPED_ALL if is_for_all else _STOPPED, robot=self._view.selected)
 
     def _robots(self, _: str) -> None:
         rows = [
             Line("step", f"{'▶' if robot.name == self._view.selected else ' '} {robot.name}: {state}")
             for robot in self._view.here
-            for state in [self._texts(f"state_{robot.mood}")]
+            for state in [self._view.say(MOODS[robot.mood])]
         ]
-        self._console.show(rows or [Line("note", self._texts("no_robot"))])
+        self._console.show(
+            rows or [Line("note", self._view.say("No robot has answered yet, so nobody was told."))]
+        )
 
     def _robot(self, name: str) -> None:
         if name and self._view.select(name) is not None:
-            self._note("selected", robot=self._view.selected)
+            self._note("You are now talking to {robot}.", robot=self._view.selected)
             return
         here = ", ".join(robot.name for robot in self._view.here) or "–"
-        self._note("unknown_robot", name=name or "?", robots=here)
+        self._note("There is no robot called {name}. Here now: {robots}.", name=name or "?", robots=here)
 
     async def _memory(self) -> None:
         try:
             entries = await self._link.memories()
         except (TransportError, InvalidMessageError) as error:
             log.warning("memory not available", error=str(error))
-            self._note("memory_unavailable")
+            self._note("The memory does not answer at the moment.")
             return
         if not entries:
-            self._note("memory_empty")
+            self._note("Nothing is remembered yet.")
             return
         rows = [Line("step", f"• {self._remembered(entry)}") for entry in entries]
-        self._console.show([Line("heading", self._texts("memory_title")), *rows])
+        self._console.show([Line("heading", self._view.say("Remembered:")), *rows])
 
     def _remembered(self, entry: MemoryEntry) -> str:
         if entry.type == "image":
-            return self._texts("memory_picture", info=entry.info or entry.name)
+            return self._view.say("a picture: {info}", info=entry.info or entry.name)
         return entry.data
 
     def _current(self) -> RobotView | None:
         robot = self._view.current
         if robot is None:
-            self._note("no_robot")
+            self._note("No robot has answered yet, so nobody was told.")
         return robot
 
     async def _tick(self) -> None:
@@ -300,15 +324,15 @@ class TerminalClient:
         self._changed.set()
         self._console.refresh()
 
-    def _note(self, key: str, **values: object) -> None:
-        self._console.show([Line("note", self._texts(key, **values))])
+    def _note(self, template: str, **values: object) -> None:
+        self._console.show([Line("note", self._view.say(template, **values))])
 
     def _greet(self, examples: Sequence[str], engine: str) -> None:
-        self._note("welcome")
+        self._note("You are talking to Parley. /help shows the commands, Ctrl-D leaves.")
         if engine:
-            self._note("understands", name=engine)
+            self._note("What understands you: {name}.", name=engine)
         if examples:
-            self._note("try")
+            self._note("For example:")
             self._console.show([Line("step", f"“{example}”") for example in examples])
 
 

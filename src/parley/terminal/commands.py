@@ -5,27 +5,30 @@ from __future__ import annotations
 import difflib
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Final
 
 from parley.language.control import control_of
 from parley.messages.chat import ChatInput
 from parley.messages.status import PlanDecision, PlanProposal
-from parley.terminal.texts import Texts
+from parley.sentences import SpokenLanguage, in_language
 from parley.terminal.view import RobotView
 
 __all__ = ["COMMANDS", "Command", "chosen", "compose", "help_rows", "parse", "suggest"]
 
-COMMANDS = {
-    "help": "",
-    "plan": "",
-    "approve": "on|off",
-    "stop": "[all]",
-    "reset": "[all]",
-    "robots": "",
-    "robot": "NAME",
-    "memory": "",
-    "quit": "",
+COMMANDS: Final = {
+    "help": ("", "show this"),
+    "plan": ("", "show the plan"),
+    "approve": ("on|off", "on: be asked before a plan begins; off: plans begin at once"),
+    "stop": ("[all]", "emergency stop; all: of every robot"),
+    "reset": ("[all]", "let it move again after an emergency stop"),
+    "robots": ("", "who is here"),
+    "robot": ("NAME", "talk to another robot"),
+    "memory": ("", "show what is remembered"),
+    "quit": ("", "leave"),
 }
-"""Slash command -> how its argument is written."""
+"""Slash command -> how its argument is written, and what it does."""
+_YES: Final = frozenset(["yes", "y", "ok", "okay", "sure", "agreed", "jah", "j", "jaa", "sobib", "olgu"])
+_NO: Final = frozenset(["no", "n", "nope", "ei"])
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,14 +61,14 @@ def chosen(text: str, choices: Sequence[str]) -> str:
     return text
 
 
-def compose(robot: RobotView, text: str, texts: Texts, message_id: str) -> ChatInput | PlanDecision:
+def compose(robot: RobotView, text: str, message_id: str) -> ChatInput | PlanDecision:
     """The message that `text` is to `robot`: a decision on its plan, an answer to its question, or new words.
 
     What the text answers is no longer pending afterwards. "Stop" and its kin answer nothing: the question
     stays until whoever asked it takes it back.
     """
     last = robot.pending[-1] if robot.pending else None
-    if isinstance(last, PlanProposal) and (decision := _decision(text, texts)):
+    if isinstance(last, PlanProposal) and (decision := _decision(text)):
         robot.pending.remove(last)
         return PlanDecision(
             id=last.id,
@@ -84,13 +87,13 @@ def compose(robot: RobotView, text: str, texts: Texts, message_id: str) -> ChatI
     )
 
 
-def _decision(text: str, texts: Texts) -> str:
+def _decision(text: str) -> str:
     word = text.lower().rstrip(".!")
-    return "yes" if word in texts.words("yes_words") else "no" if word in texts.words("no_words") else ""
+    return "yes" if word in _YES else "no" if word in _NO else ""
 
 
-def help_rows(texts: Texts) -> list[str]:
+def help_rows(language: SpokenLanguage) -> list[str]:
     """All commands, one a row, with what they do."""
-    written = {name: f"/{name} {argument}".rstrip() for name, argument in COMMANDS.items()}
-    width = max(len(row) for row in written.values())
-    return [f"{row:<{width}}  {texts(f'help_{name}')}" for name, row in written.items()]
+    written = {f"/{name} {argument}".rstrip(): does for name, (argument, does) in COMMANDS.items()}
+    width = max(map(len, written))
+    return [f"{row:<{width}}  {in_language(does, language)}" for row, does in written.items()]

@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Final
 
 from parley.messages.chat import ActionCall
 from parley.messages.status import PlanStep, PlanUpdate
+from parley.sentences import SpokenLanguage, in_language, sentence
 from parley.terminal.lines import Fragments
-from parley.terminal.texts import Texts
 
 __all__ = ["ICONS", "Progress", "bar", "compare", "is_over", "label", "lines_of", "plan_rows", "step_row"]
 
@@ -25,6 +26,17 @@ ICONS = {
 }
 """Step state -> one character."""
 
+STATES: Final = {
+    "queued": "to do",
+    "running": "now",
+    "finished": "done",
+    "failed": "did not work",
+    "stopped": "stopped",
+    "skipped": "left out",
+    "paused": "paused",
+    "waiting": "waiting for you",
+}
+"""Step state in words."""
 _STYLES = {"running": "class:now", "finished": "class:done", "failed": "class:bad", "waiting": "class:ask"}
 _ALONE = ("failed", "waiting", "paused", "stopped")
 _WORD_STARTS = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|[_\s]+")
@@ -57,12 +69,14 @@ def bar(fraction: float, width: int = 16) -> str:
     return f"{'█' * full}{'░' * (width - full)} {round(fraction * 100)} %"
 
 
-def step_row(step: PlanStep, texts: Texts, *, number: int = 0, progress: Progress | None = None) -> str:
+def step_row(
+    step: PlanStep, language: SpokenLanguage, *, number: int = 0, progress: Progress | None = None
+) -> str:
     """One step as a row of plain text; what is over has no number any more."""
-    state = _progress_text(progress) or texts(f"step_{step.state}")
+    state = _progress_text(progress, language) or in_language(STATES[step.state], language)
     numbered = f"{number}. " if number and not is_over(step) else ""
     described = f" ({state})" if step.state != "queued" else ""
-    return f"{ICONS[step.state]} {numbered}{label(step.action)}{described}"
+    return f"{ICONS[step.state]} {numbered}{in_language(label(step.action), language)}{described}"
 
 
 def is_over(step: PlanStep) -> bool:
@@ -85,18 +99,23 @@ def lines_of(steps: Sequence[PlanStep]) -> list[PlanStep]:
 
 
 def plan_rows(
-    steps: Sequence[PlanStep], texts: Texts, progress: Progress | None = None, *, max_rows: int = 6
+    steps: Sequence[PlanStep],
+    language: SpokenLanguage,
+    progress: Progress | None = None,
+    *,
+    max_rows: int = 6,
 ) -> list[Fragments]:
     """The live view of a plan, at most `max_rows` rows around the first step that is not over."""
     steps = lines_of(steps)
     current = next((i for i, step in enumerate(steps) if not is_over(step)), len(steps))
     first = max(0, min(current - 1, len(steps) - max_rows))
     shown = steps[first : first + max_rows]
-    width = max((len(_short(step)) for step in shown), default=0)
-    rows = [_row(step, texts, progress, width) for step in shown]
+    width = max((len(_short(step, language)) for step in shown), default=0)
+    rows = [_row(step, language, progress, width) for step in shown]
     hidden = len(steps) - first - len(shown)
     if hidden:
-        rows.append([("class:dim", f"   {texts('more_steps', count=hidden)}")])
+        more = in_language(sentence("and {count} more", count=hidden), language)
+        rows.append([("class:dim", f"   {more}")])
     return rows
 
 
@@ -119,22 +138,22 @@ def compare(before: PlanUpdate | None, after: PlanUpdate) -> tuple[bool, list[Pl
     return is_new, ended
 
 
-def _row(step: PlanStep, texts: Texts, progress: Progress | None, width: int) -> Fragments:
+def _row(step: PlanStep, language: SpokenLanguage, progress: Progress | None, width: int) -> Fragments:
     style = _STYLES.get(step.state, "class:dim")
     mine = progress if progress and step.state == "running" and progress.node == step.node else None
-    state = _progress_text(mine) or texts(f"step_{step.state}")
-    return [(style, f" {ICONS[step.state]} {_short(step):<{width}}  "), (style, state)]
+    state = _progress_text(mine, language) or in_language(STATES[step.state], language)
+    return [(style, f" {ICONS[step.state]} {_short(step, language):<{width}}  "), (style, state)]
 
 
-def _progress_text(progress: Progress | None) -> str:
+def _progress_text(progress: Progress | None, language: SpokenLanguage) -> str:
     if progress is None:
         return ""
     parts = [bar(progress.fraction)] if progress.fraction is not None else []
-    return "  ".join([*parts, progress.text] if progress.text else parts)
+    return "  ".join([*parts, in_language(progress.text, language)] if progress.text else parts)
 
 
-def _short(step: PlanStep) -> str:
-    text = label(step.action)
+def _short(step: PlanStep, language: SpokenLanguage) -> str:
+    text = in_language(label(step.action), language)
     return text if len(text) <= _MAX_LABEL_CHARS else f"{text[: _MAX_LABEL_CHARS - 1]}…"
 
 

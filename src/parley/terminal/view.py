@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Final
 
 from parley.messages.chat import ChatFeedback, ReplyDraft
 from parley.messages.status import (
@@ -18,14 +19,33 @@ from parley.messages.status import (
     Rejection,
     StopReport,
 )
+from parley.sentences import SpokenLanguage, in_language, sentence
 from parley.terminal.lines import Fragments, Line, LineKind
 from parley.terminal.plan import Progress, compare, is_over, label, lines_of, plan_rows, step_row
-from parley.terminal.texts import Texts
 
 __all__ = ["LOST_AFTER_S", "OperatorView", "Question", "RobotView"]
 
 _KINDS: dict[str, LineKind] = {"response": "said", "info": "said", "request": "asked", "error": "problem"}
 
+MOODS: Final = {
+    "idle": "ready",
+    "running": "working",
+    "paused": "paused",
+    "held": "waiting for you",
+    "awaiting_approval": "waiting for your yes",
+    "question": "waiting for your answer",
+    "stopped": "stopped, /reset lets it move again",
+    "lost": "no contact",
+}
+"""`RobotView.mood` in words."""
+STOPS: Final = {
+    "received": "{robot} is stopping. To let it move again: /reset, then “carry on”.",
+    "at_rest": "{robot} stands still.",
+    "moving": "{robot} does not stand yet.",
+    "silent": "{robot} does not answer. Look whether it stands.",
+    "reset": "{robot} may move again. Write “carry on” to go on.",
+}
+"""`StopReport.state` in words."""
 _DRAFT_CHARS = 70
 
 ANSWERS_WITHIN_S = 2.0
@@ -72,7 +92,7 @@ class RobotView:
 
     @property
     def mood(self) -> str:
-        """What it is doing, as the key of a text ``state_<mood>``."""
+        """What it is doing, a key of `MOODS`."""
         if self.is_lost:
             return "lost"
         if self.state == "stopped":
@@ -95,10 +115,13 @@ class RobotView:
 
 
 class OperatorView:
-    """Everything an operator is shown of all robots."""
+    """Everything an operator is shown of all robots, in the language that they read.
 
-    def __init__(self, texts: Texts) -> None:
-        self.texts = texts
+    What robots say is put into it too, and what is sent back stays as it was: choices and steps.
+    """
+
+    def __init__(self, language: SpokenLanguage = "en") -> None:
+        self.language = language
         self.robots: dict[str, RobotView] = {}
         self.selected = ""
         """Name of the robot that is spoken to; empty as long as none is known."""
@@ -107,6 +130,10 @@ class OperatorView:
         self._own_stops: set[str] = set()
         self._silent_s: dict[str, float | None] = {}
         """Robots that have not answered a stop -> since when, in wall time."""
+
+    def say(self, template: str, **values: object) -> str:
+        """A sentence of the terminal's own, with ``{names}`` filled in."""
+        return in_language(sentence(template, **values), self.language)
 
     @property
     def here(self) -> list[RobotView]:
@@ -136,14 +163,17 @@ class OperatorView:
         for name in feedback.targets:
             _hear(self._robot(name), feedback)
         sources = ", ".join(name.replace("_", " ") for name in feedback.sources)
-        told = [self.texts("sources", names=sources) if sources else "", feedback.engine.partition(" (")[0]]
+        told = [
+            self.say("remembered: {names}", names=sources) if sources else "",
+            feedback.engine.partition(" (")[0],
+        ]
         footnote = " · ".join(filter(None, told))
         return [
             Line(
                 "asked" if feedback.choices else _KINDS[feedback.type],
-                feedback.message,
-                speaker=", ".join(feedback.targets) or self.texts("system"),
-                choices=feedback.choices,
+                in_language(feedback.message, self.language),
+                speaker=", ".join(feedback.targets) or "Parley",
+                choices=self.choices(feedback.choices),
                 footnote=footnote,
             )
         ]
@@ -172,7 +202,7 @@ class OperatorView:
         if was != "idle" and message.state == "idle":
             robot.pending.clear()
         is_new, ended = compare(before, message)
-        lines = [Line("step", step_row(step, self.texts)) for step in lines_of(ended)]
+        lines = [Line("step", step_row(step, self.language)) for step in lines_of(ended)]
         to_come = [step for step in message.steps if not is_over(step)]
         if is_new and to_come and message.state != "awaiting_approval":
             lines += self._plan(robot, to_come)
@@ -197,8 +227,8 @@ class OperatorView:
         robot.state, robot.seen_s = status.state, now_s
         self.selected = self.selected or robot.name
         if is_new:
-            return [Line("note", self.texts("joined", robot=robot.name))]
-        return [Line("note", self.texts("found", robot=robot.name))] if was_lost else []
+            return [Line("note", self.say("{robot} is here.", robot=robot.name))]
+        return [Line("note", self.say("{robot} is in contact again.", robot=robot.name))] if was_lost else []
 
     def tick(self, now_s: float) -> list[Line]:
         """Time passes: notice who has fallen silent. `now_s` is wall time."""
@@ -206,13 +236,13 @@ class OperatorView:
         for robot in self.here:
             if not robot.is_lost and now_s - robot.seen_s > LOST_AFTER_S:
                 robot.is_lost = True
-                lines.append(Line("problem", self.texts("lost", robot=robot.name)))
+                lines.append(Line("problem", self.say("No contact with {robot}.", robot=robot.name)))
         for name, since_s in list(self._silent_s.items()):
             if since_s is None:
                 self._silent_s[name] = now_s
             elif now_s - since_s > ANSWERS_WITHIN_S:
                 del self._silent_s[name]
-                lines.append(Line("problem", self.texts("stop_silent", robot=name)))
+                lines.append(Line("problem", self.say(STOPS["silent"], robot=name)))
         return lines
 
     def on_stop_report(self, report: StopReport) -> list[Line]:
@@ -225,25 +255,40 @@ class OperatorView:
             robot.state = "paused"
         if report.state == "received" and report.id in self._own_stops:
             return []
-        return [Line("note", self.texts(f"stop_{report.state}", robot=robot.name))]
+        return [Line("note", self.say(STOPS[report.state], robot=robot.name))]
 
     def on_rejection(self, rejection: Rejection) -> list[Line]:
         """Something was refused; the operator hears it without the vocabulary of engineers."""
         if self._is_told_otherwise(rejection):
             return []
         self.replies += 1
-        robot = rejection.target or self.texts("system")
+        robot = rejection.target or "Parley"
         if any(problem.code == "stop_latched" for problem in rejection.problems):
-            return [Line("problem", self.texts("refused_latched", robot=robot))]
+            return [
+                Line(
+                    "problem",
+                    self.say("{robot} was stopped by the emergency stop. Write /reset first.", robot=robot),
+                )
+            ]
         if rejection.what == "chat_interface_input" and rejection.problems:
-            return [Line("problem", self.texts("refused_message", problem=rejection.problems[0].message))]
-        return [Line("problem", self.texts("refused", robot=robot))]
+            return [
+                Line(
+                    "problem",
+                    self.say(
+                        "That could not be read, and nothing was changed: {problem}",
+                        problem=rejection.problems[0].message,
+                    ),
+                )
+            ]
+        return [
+            Line("problem", self.say("{robot} could not accept that, and nothing was changed.", robot=robot))
+        ]
 
     def plan_lines(self, robot: RobotView) -> list[Line]:
         """The whole plan of a robot for the conversation."""
         steps = robot.plan.steps if robot.plan is not None else ()
         if not steps:
-            return [Line("note", self.texts("no_plan", robot=robot.name))]
+            return [Line("note", self.say("{robot} has nothing to do.", robot=robot.name))]
         return self._plan(robot, steps)
 
     def toolbar(self) -> list[Fragments]:
@@ -258,14 +303,18 @@ class OperatorView:
         if others:
             rows.append([("class:dim", f" {' · '.join(self._mood(robot) for robot in others)}")])
         if current is not None and current.plan is not None and current.plan.state != "idle":
-            rows += plan_rows(current.plan.steps, self.texts, current.progress)
+            rows += plan_rows(current.plan.steps, self.language, current.progress)
         return rows
+
+    def choices(self, choices: Sequence[str]) -> tuple[str, ...]:
+        """Answers that are offered, as they are shown."""
+        return tuple(in_language(choice, self.language) for choice in choices)
 
     def _robot(self, name: str) -> RobotView:
         return self.robots.setdefault(name, RobotView(name))
 
     def _mood(self, robot: RobotView) -> str:
-        return f"{robot.name}: {self.texts(f'state_{robot.mood}')}"
+        return f"{robot.name}: {self.say(MOODS[robot.mood])}"
 
     def _is_told_otherwise(self, rejection: Rejection) -> bool:
         """Whether a node speaks of it in the conversation: those do, except of what they cannot read."""
@@ -283,29 +332,36 @@ class OperatorView:
         self.replies += 1
         robot.pending = [item for item in robot.pending if item.id != proposal.id]
         robot.pending.append(proposal)
-        heading = Line("heading", self.texts("proposal_of", robot=robot.name))
+        heading = Line("heading", self.say("{robot} would do this:", robot=robot.name))
         lines = proposal.lines or tuple(map(label, proposal.steps))
-        rows = [Line("step", f"{number}. {text}") for number, text in enumerate(lines, 1)]
-        return [heading, *rows, Line("asked", self.texts("yes_or_no"))]
+        rows = [
+            Line("step", f"{number}. {in_language(text, self.language)}")
+            for number, text in enumerate(lines, 1)
+        ]
+        return [heading, *rows, Line("asked", self.say("Answer yes or no."))]
 
     def _plan(self, robot: RobotView, steps: Sequence[PlanStep]) -> list[Line]:
         """A heading and the steps; those to come are numbered as operators call them ("the second")."""
-        lines = [Line("heading", self.texts("plan_of", robot=robot.name))]
+        lines = [Line("heading", self.say("{robot}'s plan:", robot=robot.name))]
         number = 0
         for step in lines_of(steps):
             number += 0 if is_over(step) else 1
             progress = robot.progress if robot.progress and robot.progress.node == step.node else None
-            lines.append(Line("step", step_row(step, self.texts, number=number, progress=progress)))
+            lines.append(Line("step", step_row(step, self.language, number=number, progress=progress)))
         return lines
 
     def _leave(self, name: str) -> list[Line]:
         if name not in self.robots:
             return []
         del self.robots[name]
-        lines = [Line("note", self.texts("left", robot=name))]
+        lines = [Line("note", self.say("{robot} has left.", robot=name))]
         if self.selected == name:
             self.selected = next((robot.name for robot in self.here), "")
-            lines += [Line("note", self.texts("selected", robot=self.selected))] if self.selected else []
+            lines += (
+                [Line("note", self.say("You are now talking to {robot}.", robot=self.selected))]
+                if self.selected
+                else []
+            )
         return lines
 
 
