@@ -8,6 +8,7 @@ from parley.messages.base import Payload
 from parley.messages.chat import ActionCall
 from parley.messages.principal import Principal
 from parley.messages.rules import Point, Rule
+from parley.sentences import SpokenLanguage
 
 __all__ = ["RuleFinding", "RuleRequest", "RuleVerdict", "RuleView", "RulesAnswer"]
 
@@ -28,7 +29,7 @@ class RuleRequest(Payload):
     """For `try`: a plan."""
     goal: Point | None = None
     """For `try`: a point to drive to."""
-    language: Literal["en", "et"] = "en"
+    language: SpokenLanguage = "en"
     """Of what is told in words."""
     by: Principal | None = None
     """Who changes rules; `try` counts for them."""

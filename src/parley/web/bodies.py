@@ -9,6 +9,7 @@ from pydantic import Field, StringConstraints, model_validator
 from parley.messages.attendance import Unattended
 from parley.messages.chat import ActionCall
 from parley.messages.principal import Role
+from parley.sentences import SpokenLanguage
 from parley.web.models import ChatEntry, Policy, WebModel
 from parley.web.people.records import Way
 
@@ -302,7 +303,7 @@ class RuleTryPost(WebModel):
     goal: tuple[float, float] | None = None
     """x, y on the map, metres."""
     words: Annotated[tuple[Annotated[str, StringConstraints(max_length=300)], ...], Field(max_length=20)] = ()
-    language: Literal["en", "et"] = "en"
+    language: SpokenLanguage = "en"
 
 
 class StopPost(WebModel):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated
 
 from fastapi import APIRouter, Path
 
@@ -11,6 +11,7 @@ from parley.gate.table import Effect
 from parley.messages import topics
 from parley.messages.rule_requests import RuleRequest, RulesAnswer, RuleVerdict, RuleView
 from parley.messages.rules import Rule
+from parley.sentences import SpokenLanguage
 from parley.web.backend import Backend
 from parley.web.bodies import RuleTryPost
 from parley.web.problems import WebProblem
@@ -21,7 +22,6 @@ __all__ = ["router"]
 router = APIRouter(prefix="/rules", tags=["rules"], dependencies=[module("rules")])
 
 RuleId = Annotated[str, Path(max_length=64)]
-Language = Literal["en", "et"]
 
 
 async def _ask(web: Backend, request: RuleRequest) -> RulesAnswer:
@@ -40,19 +40,21 @@ async def _ask(web: Backend, request: RuleRequest) -> RulesAnswer:
 
 
 @router.get("", dependencies=[may(Effect.SEE)])
-async def get_rules(web: Web, language: Language = "en") -> RulesAnswer:
+async def get_rules(web: Web, language: SpokenLanguage = "en") -> RulesAnswer:
     """All rules, each in words."""
     return await _ask(web, RuleRequest(language=language))
 
 
 @router.post("/words", dependencies=[may(Effect.RULE)])
-async def word_rule(rule: Rule, web: Web, language: Language = "en") -> RuleView:
+async def word_rule(rule: Rule, web: Web, language: SpokenLanguage = "en") -> RuleView:
     """What a rule would say, in words; it does not hold yet."""
     return (await _ask(web, RuleRequest(what="word", rule=rule, language=language))).rules[0]
 
 
 @router.put("/{rule_id}", dependencies=[may(Effect.RULE)])
-async def put_rule(rule_id: RuleId, rule: Rule, web: Web, who: Who, language: Language = "en") -> RulesAnswer:
+async def put_rule(
+    rule_id: RuleId, rule: Rule, web: Web, who: Who, language: SpokenLanguage = "en"
+) -> RulesAnswer:
     """Add a rule or replace the one of that id."""
     if rule.id != rule_id:
         raise WebProblem(422, "The rule has another id than the address says.", path="id")
@@ -60,7 +62,7 @@ async def put_rule(rule_id: RuleId, rule: Rule, web: Web, who: Who, language: La
 
 
 @router.delete("/{rule_id}", dependencies=[may(Effect.RULE)])
-async def delete_rule(rule_id: RuleId, web: Web, who: Who, language: Language = "en") -> RulesAnswer:
+async def delete_rule(rule_id: RuleId, web: Web, who: Who, language: SpokenLanguage = "en") -> RulesAnswer:
     """Drop a rule."""
     return await _ask(web, RuleRequest(what="drop", id=rule_id, by=who.by, language=language))
 
