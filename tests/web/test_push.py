@@ -14,7 +14,9 @@ from queue import Queue
 from typing import Any
 
 import http_ece
+from cryptography.hazmat.primitives import hashes
 from cryptography.hazmat.primitives.asymmetric import ec
+from cryptography.hazmat.primitives.asymmetric.utils import encode_dss_signature
 from cryptography.hazmat.primitives.serialization import Encoding, PublicFormat
 
 from tests.web.rig import Rig, served
@@ -24,12 +26,30 @@ def text_of(data: bytes) -> str:
     return base64.urlsafe_b64encode(data).rstrip(b"=").decode()
 
 
+def bytes_of(text: str) -> bytes:
+    return base64.urlsafe_b64decode(text + "=" * (-len(text) % 4))
+
+
+def vouched(authorization: str, key: str) -> dict[str, Any]:
+    """What the server says of itself in `authorization` (RFC 8292), which it has to sign with its `key`."""
+    scheme, _, rest = authorization.partition(" ")
+    parts = dict(part.strip().split("=", 1) for part in rest.split(","))
+    assert (scheme, parts["k"]) == ("vapid", key)
+    told, _, signed = parts["t"].rpartition(".")
+    r, s = (int.from_bytes(half) for half in (bytes_of(signed)[:32], bytes_of(signed)[32:]))
+    public = ec.EllipticCurvePublicKey.from_encoded_point(ec.SECP256R1(), bytes_of(key))
+    public.verify(encode_dss_signature(r, s), told.encode(), ec.ECDSA(hashes.SHA256()))
+    claims: dict[str, Any] = json.loads(bytes_of(told.partition(".")[2]))
+    return claims
+
+
 class Browser:
     """A browser that was subscribed, and the service of its maker."""
 
-    def __init__(self, url: str, got: Queue[tuple[str, bytes]]) -> None:
+    def __init__(self, url: str, got: Queue[tuple[str, bytes, str]]) -> None:
         self._key, self._secret = ec.generate_private_key(ec.SECP256R1()), bytes(range(16))
         self._url, self._got = url, got
+        self.authorization = ""
 
     def subscription(self, path: str = "one") -> dict[str, str]:
         point = self._key.public_key().public_bytes(Encoding.X962, PublicFormat.UncompressedPoint)
@@ -37,7 +57,7 @@ class Browser:
 
     async def told(self) -> tuple[str, Any]:
         """What is told next: at which address, and what only this browser can read."""
-        path, body = await asyncio.to_thread(self._got.get, timeout=20)
+        path, body, self.authorization = await asyncio.to_thread(self._got.get, timeout=20)
         return path, json.loads(self._read(body))
 
     def _read(self, body: bytes) -> bytes:
@@ -50,12 +70,12 @@ class Browser:
 @contextmanager
 def service(gone: str = "") -> Iterator[Browser]:
     """A push service; of the address `gone` it says that it is no more."""
-    got: Queue[tuple[str, bytes]] = Queue()
+    got: Queue[tuple[str, bytes, str]] = Queue()
 
     class Answer(BaseHTTPRequestHandler):
         def do_POST(self) -> None:
             body = self.rfile.read(int(self.headers["content-length"]))
-            got.put((self.path[1:], body))
+            got.put((self.path[1:], body, self.headers["authorization"]))
             self.send_response(410 if self.path[1:] == gone else 201)
             self.end_headers()
 
@@ -81,13 +101,15 @@ async def test_a_device_is_told_in_its_language_what_a_robot_asks_and_called_no_
     with service(gone="two") as browser:
         services = (browser.subscription()["endpoint"].rsplit("/", 1)[0],)
         async with served("Ada", data_dir=tmp_path, push_services=services) as rig:
-            assert (await rig.http.get("/api/push")).json()["key"].startswith("B")
+            key = (await rig.http.get("/api/push")).json()["key"]
             assert await put(rig, browser.subscription(), **{"accept-language": "et"}) == 200
             assert await put(rig, browser.subscription("two")) == 200
             rig.robots.ask("Where shall I bring it?")
             told = dict([await browser.told(), await browser.told()])
             assert told["one"] == {"title": "Ada", "body": "Kuhu ma selle viin?", "tag": told["two"]["tag"]}
             assert told["two"]["body"] == "Where shall I bring it?"
+            claims = vouched(browser.authorization, key)
+            assert (claims["aud"], claims["sub"][:6]) == (services[0], "https:")
             store = rig.server.backend.store
 
             async def kept() -> list[str]:
