@@ -61,14 +61,16 @@ class Person:
 
     answers: deque[str] = field(default_factory=deque)
     told: list[str] = field(default_factory=list)
+    told_with: list[CameraImage | None] = field(default_factory=list)
     asked: list[str] = field(default_factory=list)
     offered: list[Sequence[str]] = field(default_factory=list)
     referred: list[str] = field(default_factory=list)
     shown: list[tuple[str, CameraImage, dict[str, Any]]] = field(default_factory=list)
     memories: list[MemoryEntry] = field(default_factory=list)
 
-    def tell(self, text: str) -> None:
+    def tell(self, text: str, picture: CameraImage | None = None) -> None:
         self.told.append(text)
+        self.told_with.append(picture)
 
     async def ask(self, question: str, choices: Sequence[str] = ()) -> str:
         self.asked.append(question)

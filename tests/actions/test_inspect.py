@@ -51,6 +51,7 @@ async def test_picture_is_shown_with_the_request_and_the_report_is_told_and_give
         ((feed, image, info),) = here.person.shown
         assert (feed, info) == (FEED, {"request": "the crate"})
         assert image.data.shape == (image.height, image.width, 3)
+        assert here.person.told_with == [image]
 
 
 async def test_what_was_found_is_remembered_for_all_with_where_the_robot_stood() -> None:

@@ -75,8 +75,11 @@ async def soon() -> None:
 
 
 async def test_telling_is_information_from_the_robot(desk: Desk) -> None:
-    desk.services.tell("I see a box.")
+    pixels = np.zeros((20, 30, 3), np.uint8)
+    desk.services.tell("I see a box.", CameraImage(30, 20, "rgb8", pixels, 0.0))
     heard = await desk.hears(1)
+    with Image.open(io.BytesIO(base64.b64decode(heard.images[0].data))) as picture:
+        assert picture.size == (30, 20)
     assert (heard.type, heard.targets, heard.message) == ("info", ("A",), "I see a box.")
     assert heard.by_step
 

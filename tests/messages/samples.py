@@ -176,6 +176,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "engine": "builtin",
         "rules": [ZONE.model_dump(mode="json", by_alias=True)],
         "by_step": True,
+        "images": [{"name": "box.jpg", "data": "AAAA"}],
     },
     chat.FlowIf: {"step": 2, "result": False},
     chat.Flow: {"if": {"step": 2, "result": True}, "together_with": 1, "repeat": 2},

@@ -122,6 +122,17 @@ async def test_a_photo_goes_to_the_robot_and_is_shown_in_the_chat() -> None:
         assert rig.robots.inputs[0].images[0].data == data
 
 
+async def test_what_a_robot_speaks_of_is_shown_with_its_words() -> None:
+    async with served("Ada") as rig:
+        photo = {"data": base64.b64encode(JPEG).decode()}
+        rig.robots.say("I see a box.", type="info", images=[photo, {"data": "no picture"}])
+        await rig.until(lambda: rig.server.backend.state.chat.entries)
+        await rig.heard()
+        (entry,) = (await rig.http.get("/api/chat")).json()["entries"]
+        (address,) = entry["images"]
+        assert (await rig.http.get(address)).content == JPEG
+
+
 async def test_what_is_no_picture_is_refused_before_anything_is_sent() -> None:
     async with served("Ada") as rig:
         text = {"name": "a.txt", "data": base64.b64encode(b"hello").decode()}

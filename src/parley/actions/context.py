@@ -26,8 +26,8 @@ __all__ = ["ActionContext", "Display", "MemoryAccess", "Operator", "World"]
 class Operator(Protocol):
     """The person, as an action reaches them."""
 
-    def tell(self, text: str) -> None:
-        """Say something; no answer is expected."""
+    def tell(self, text: str, picture: CameraImage | None = None) -> None:
+        """Say something, and show the picture that it is about; no answer is expected."""
         ...
 
     async def ask(self, question: str, choices: Sequence[str] = ()) -> str:

@@ -68,7 +68,7 @@ async def inspect(ctx: ActionContext, inspect: str) -> Inspection | Outcome:
     ):  # it may stand where nothing is seen
         told_whole = together(report.text, sentence("I cannot see all of it from here."))
         report = replace(report, text=told_whole, found=None if ctx.run.result_asked else report.found)
-    ctx.operator.tell(report.text)
+    ctx.operator.tell(report.text, image)
     found = await _kept(ctx, report, image)
     if place is not None and seen.is_whole:
         await _forget_gone(ctx, place, image)

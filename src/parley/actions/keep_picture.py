@@ -40,4 +40,4 @@ async def keep_picture(ctx: ActionContext, name: str = "") -> None:
     called = name.strip() or UNNAMED
     ctx.display.show(FEED, image, {"request": called})
     ctx.remember_picture(called, image, info=f"{called}, {ctx.whereabouts()}")
-    ctx.operator.tell(f"I keep this picture as “{called}”.")
+    ctx.operator.tell(f"I keep this picture as “{called}”.", image)

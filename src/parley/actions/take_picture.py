@@ -26,6 +26,6 @@ async def take_picture(ctx: ActionContext, target: str = "") -> Outcome:
     """
     image = await ctx.robot.image()
     ctx.display.show(FEED, image, {"request": target or "picture"})
-    ctx.operator.tell(f"Here is the picture, taken {ctx.whereabouts()}.")
+    ctx.operator.tell(f"Here is the picture, taken {ctx.whereabouts()}.", image)
     seen = list(dict.fromkeys(detection.label for detection in image.detections or ()))
     return Outcome(facts={"seen": seen} if seen else {})

@@ -19,7 +19,7 @@ from parley.gate.table import Effect, verdict
 from parley.latest import Latest
 from parley.memory.client import recall
 from parley.messages import topics
-from parley.messages.chat import ChatFeedback, ChatInput
+from parley.messages.chat import ChatFeedback, ChatImage, ChatInput
 from parley.messages.display import DisplayFeed
 from parley.messages.memory import AddToMemory, MemoryBody, MemoryEntry
 from parley.messages.principal import Principal
@@ -65,9 +65,12 @@ class ContextServices:
 
     # -- Operator --------------------------------------------------------------------------------------
 
-    def tell(self, text: str) -> None:
+    def tell(self, text: str, picture: CameraImage | None = None) -> None:
         """See `Operator.tell`."""
-        self._feedback(ChatFeedback(message=text, targets=(self._actor,), type="info", by_step=True))
+        images = () if picture is None else (ChatImage(data=_jpeg(picture)),)
+        self._feedback(
+            ChatFeedback(message=text, targets=(self._actor,), type="info", by_step=True, images=images)
+        )
 
     async def ask(self, question: str, choices: Sequence[str] = ()) -> str:
         """See `Operator.ask`."""
@@ -149,10 +152,7 @@ class ContextServices:
 
     def show(self, feed: str, image: CameraImage, info: Mapping[str, Any] | None = None) -> None:
         """See `Display.show`."""
-        buffer = io.BytesIO()
-        Image.fromarray(image.data).save(buffer, format="JPEG", quality=JPEG_QUALITY)
-        picture = base64.b64encode(buffer.getvalue()).decode("ascii")
-        message = DisplayFeed(target=self._actor, name=feed, image=picture, info=dict(info or {}))
+        message = DisplayFeed(target=self._actor, name=feed, image=_jpeg(image), info=dict(info or {}))
         self._publishers[topics.DISPLAY_FEED.name].publish(to_string(message))
 
     # -- Memory ----------------------------------------------------------------------------------------
@@ -173,3 +173,10 @@ class ContextServices:
             by=Principal(kind="robot", name=self._actor),
         )
         self._publishers[topics.ADD_TO_MEMORY.name].publish(to_string(AddToMemory({entry.name: body})))
+
+
+def _jpeg(image: CameraImage) -> str:
+    """Base64 of a picture."""
+    buffer = io.BytesIO()
+    Image.fromarray(image.data).save(buffer, format="JPEG", quality=JPEG_QUALITY)
+    return base64.b64encode(buffer.getvalue()).decode("ascii")

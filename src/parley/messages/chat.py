@@ -98,6 +98,8 @@ class ChatFeedback(Payload):
     """Ours: what a yes would make rules, each for one of the choices; whoever has a map draws them."""
     by_step: bool = False
     """Ours: an action that is carried out tells it."""
+    images: tuple[ChatImage, ...] = ()
+    """Ours: what it speaks of, as the robot saw it."""
 
 
 class ReplyDraft(Payload):

@@ -121,6 +121,7 @@ class Backend:
             new_id=lambda: uuid.uuid4().hex,
             entries=entries,
             has_older=not complete,
+            keep_pictures=self._keep_shown,
         )
         self._keeper = await enter(Keeper(self.store, self.state.show))
         for name in await self.store.settings("robot"):
@@ -277,7 +278,7 @@ class Backend:
             tuple(dict.fromkeys(self.state.robots.resolve(name) or name for name in post.targets)),
             reply_to=post.reply_to,
             images=[ChatImage(name=image.name, data=image.data) for image in post.images],
-            image_urls=[f"/api/chat/images/{picture.id}" for picture in pictures],
+            image_urls=[_address(picture) for picture in pictures],
             by=by,
             unattended=post.unattended,
             unix_ms=self.clock.unix_ms(),
@@ -394,6 +395,17 @@ class Backend:
         if not self.state.feeds.infos[key].continuous:
             self._in_background(self._keep_seen(key, picture))
 
+    def _keep_shown(self, key: str, images: Sequence[ChatImage]) -> tuple[str, ...]:
+        """What a robot shows with its words; what is no picture is left out."""
+        kept: list[KeptPicture] = []
+        for number, image in enumerate(images):
+            try:
+                kept.append(kept_picture(f"{key}.{number}", image))
+            except WebProblem as problem:
+                log.warning("picture left out", entry=key, problem=problem.detail)
+        self._keeper.put_pictures(kept)
+        return tuple(_address(picture) for picture in kept)
+
     async def _keep_seen(self, key: tuple[str, str], picture: Picture) -> None:
         """A single picture is a finding: it is kept for the history."""
         digest = hashlib.sha256("\n".join((*key, str(picture.unix_ms))).encode()).hexdigest()[:32]
@@ -407,6 +419,10 @@ class Backend:
         task = asyncio.create_task(work, name="web keeping")
         self._keeping.add(task)
         task.add_done_callback(self._keeping.discard)
+
+
+def _address(picture: KeptPicture) -> str:
+    return f"/api/chat/images/{picture.id}"
 
 
 def _in(loop: asyncio.AbstractEventLoop, deed: Callable[[], None]) -> None:

@@ -12,7 +12,9 @@ from parley.messages.chat import ChatFeedback, ChatImage, ChatInput, ReplyDraft
 from parley.messages.principal import Principal
 from parley.web.models import ChatEntry
 
-__all__ = ["KEPT_ENTRIES", "ChatBook", "Composed"]
+__all__ = ["KEPT_ENTRIES", "ChatBook", "Composed", "KeepPictures"]
+
+KeepPictures = Callable[[str, Sequence[ChatImage]], tuple[str, ...]]
 
 KEPT_ENTRIES: Final = 500
 """How many of the newest entries are held ready; older ones are in the store."""
@@ -35,6 +37,7 @@ class ChatBook:
         emit: Gets each entry that is new or has changed.
         new_id: Makes keys for what comes without one.
         entries: The end of the conversation so far, oldest first.
+        keep_pictures: Keeps what a robot shows with the entry of a key; gives the addresses of it.
     """
 
     def __init__(
@@ -42,8 +45,9 @@ class ChatBook:
         emit: Callable[[ChatEntry], None],
         new_id: Callable[[], str],
         entries: Iterable[ChatEntry] = (),
+        keep_pictures: KeepPictures = lambda key, images: (),
     ) -> None:
-        self._emit, self._new_id = emit, new_id
+        self._emit, self._new_id, self._keep_pictures = emit, new_id, keep_pictures
         self.entries: dict[str, ChatEntry] = {entry.id: entry for entry in entries}
         self.next_seq = max((entry.seq for entry in self.entries.values()), default=0) + 1
         self._asked_as: dict[str, str] = {}
@@ -178,6 +182,7 @@ class ChatBook:
                 choices=feedback.choices,
                 rules=feedback.rules,
                 sources=feedback.sources,
+                images=self._keep_pictures(key, feedback.images) if feedback.images else (),
                 engine=_short(feedback.engine),
                 question="open" if feedback.type == "request" else "",
                 reply_to=self._said_as.get(feedback.reply_to, feedback.reply_to),

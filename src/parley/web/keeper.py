@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from types import TracebackType
 from typing import Self
 
@@ -11,7 +11,7 @@ import structlog
 
 from parley.errors import StoreError
 from parley.web.models import ChatEntry
-from parley.web.store import WebStore
+from parley.web.store import KeptPicture, WebStore
 
 __all__ = ["Keeper"]
 
@@ -30,6 +30,7 @@ class Keeper:
     def __init__(self, store: WebStore, show: Callable[[ChatEntry], None]) -> None:
         self._store, self._show = store, show
         self._waiting: list[ChatEntry] = []
+        self._pictures: list[KeptPicture] = []
         self._arrived = asyncio.Event()
         self._closing = False
         self._task: asyncio.Task[None] | None = None
@@ -51,15 +52,20 @@ class Keeper:
         self._waiting.append(entry)
         self._arrived.set()
 
+    def put_pictures(self, pictures: Iterable[KeptPicture]) -> None:
+        """Store them together with the entries that are put next."""
+        self._pictures += pictures
+
     async def _run(self) -> None:
         while self._waiting or not self._closing:
             await self._arrived.wait()
             self._arrived.clear()
             batch, self._waiting = self._waiting, []
+            pictures, self._pictures = self._pictures, []
             if not batch:
                 continue
             try:
-                await self._store.keep(batch)
+                await self._store.keep(batch, pictures)
             except StoreError as error:
                 log.error("chat not stored", entries=len(batch), problem=str(error))
             for entry in batch:

@@ -9,6 +9,7 @@ from typing import Final
 
 from PIL import Image
 
+from parley.messages.chat import ChatImage
 from parley.web.bodies import ImageUpload
 from parley.web.problems import WebProblem
 from parley.web.store import KeptPicture
@@ -58,7 +59,7 @@ def checked_image(text: str) -> tuple[bytes, str]:
     return data, kind
 
 
-def kept_picture(key: str, image: ImageUpload) -> KeptPicture:
+def kept_picture(key: str, image: ImageUpload | ChatImage) -> KeptPicture:
     """A picture that goes with a message, as it is kept.
 
     Raises:

@@ -12,7 +12,7 @@ from parley.messages.map import MapView
 from parley.messages.memory import MemoryEvent
 from parley.messages.status import GraphEvent, PlanProposal, PlanUpdate, Rejection
 from parley.web.changes import ChangeLog
-from parley.web.chat_state import ChatBook
+from parley.web.chat_state import ChatBook, KeepPictures
 from parley.web.feed_state import FeedBook
 from parley.web.models import (
     AbilityView,
@@ -49,6 +49,7 @@ class WebState:
         new_id: Makes keys.
         entries: The end of the conversation so far, oldest first.
         has_older: Whether the conversation began before those.
+        keep_pictures: See `ChatBook`.
     """
 
     def __init__(
@@ -59,11 +60,12 @@ class WebState:
         new_id: Callable[[], str],
         entries: Iterable[ChatEntry] = (),
         has_older: bool = False,
+        keep_pictures: KeepPictures = lambda key, images: (),
     ) -> None:
         self.log = ChangeLog(run)
         self._keep, self._has_older = keep, has_older
         self.robots = RobotBook(self.log.add)
-        self.chat = ChatBook(self._on_entry, new_id, entries)
+        self.chat = ChatBook(self._on_entry, new_id, entries, keep_pictures)
         self.plans = PlanBook(self.log.add, self.ability_of)
         self.feeds = FeedBook(self.log.add)
         self.incidents: Latest[str, Incident] = Latest(INCIDENTS_KEPT)

@@ -66,12 +66,13 @@ function Again({ text, isStop, onEdit }: Pick<Props, 'isStop' | 'onEdit'> & { te
 
 /** Words and pictures; either may be missing. */
 function Said({ entry }: { entry: ChatEntry }) {
-  const { t } = useTranslation('chat');
+  const { t, i18n } = useTranslation('chat');
+  const name = nameList(entry.targets, i18n.language);
   return (
     <>
         {entry.message && <p className={css.text}>{entry.message}</p>}
         {entry.images.map((address) => (
-          <img key={address} className={css.image} src={address} alt={t('photo')} loading="lazy" />
+          <img key={address} className={css.image} src={address} alt={entry.who === 'robot' ? t('seen', { name }) : t('photo')} loading="lazy" />
         ))}
         {entry.question === 'open' && entry.rules.length > 0 && <RuleMap robot={entry.targets[0] ?? ''} rules={entry.rules} />}
         {entry.draft && <span className={css.drafting}>{t('drafting')}</span>}
