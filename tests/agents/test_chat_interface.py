@@ -366,6 +366,21 @@ async def test_message_sent_twice_is_handled_once(room: Room) -> None:
     assert len(room.observer.said) == 1
 
 
+async def test_what_a_program_says_on_and_on_is_done_once_and_told_once_but_stop_counts_each_time(
+    room: Room,
+) -> None:
+    room.language.will("interpret", ChatAction(message_response="I will look.", queue=(look(),)))
+    for _ in range(4):
+        room.observer.publish(topics.CHAT_INPUT, ChatInput(message="look", targets=("A",)))
+    await room.observer.until(lambda: len(room.observer.said) == 2, timeout_s=5)
+    for _ in range(3):
+        room.observer.publish(topics.CHAT_INPUT, ChatInput(message="stop", targets=("A",)))
+    await room.observer.until(lambda: len(room.planner.orders) == 4, timeout_s=5)
+    told = sorted(feedback.message for feedback in room.observer.said[:2])
+    assert told == ["I will look.", "The same comes again and again. I take it as said once."]
+    assert [len(order.queue) for order in room.planner.orders] == [1, 0, 0, 0]
+
+
 async def test_answer_that_nobody_waits_for_is_taken_as_an_order(room: Room) -> None:
     room.language.will("interpret", ChatAction(message_response="I will look."))
     room.observer.publish(topics.CHAT_INPUT, ChatInput(message="look", targets=("A",), type="response"))

@@ -19,6 +19,7 @@ from parley.agents.chat.log_answers import log_answer
 from parley.agents.chat.memories import Confirmations
 from parley.agents.chat.missions import Missions
 from parley.agents.chat.recollections import Recollections
+from parley.agents.chat.repeats import Repeats
 from parley.agents.chat.situations import Situations
 from parley.agents.chat.teaching import Teaching
 from parley.agents.chat.team import TeamTalk
@@ -118,7 +119,7 @@ class ChatInterface(Node):
         self._questions = self._known.questions
         self._mailboxes: Mailboxes[str] = Mailboxes(self._on_defect)
         self._offered, self._finishing = Offered(), Finishing(clock.now_s)
-        self._seen_ids = SeenIds()
+        self._seen_ids, self._repeats = SeenIds(), Repeats(clock.wall_s)
         self._holds = Holds(lambda command: self.publish(topics.STOP, command))
         self._confirmations = Confirmations()
         self._recollections = Recollections(self, clock, self._remember, self._presence.names)
@@ -168,7 +169,7 @@ class ChatInterface(Node):
             self._holds.end(held)
 
     def _read(self, said: ChatInput) -> None:
-        if not self._seen_ids.is_new(said.id):
+        if not self._seen_ids.is_new(said.id) or self._is_repeated(said):
             return
         if problem := texts.unreadable(said.message, bare=bool(said.images)):
             self._say(said.targets, problem, "error", said.id)
@@ -214,6 +215,15 @@ class ChatInterface(Node):
                 hear.append((target, question))
         self._hear_all(hear, said)
         self._questions.on_input(said)
+
+    def _is_repeated(self, said: ChatInput) -> bool:
+        """Whether a program says the same on and on, which is told once; to stop counts every time."""
+        if calls_to_stop(said.message) or control_of(said.message, self._presence.names()) in _HALTING:
+            return False
+        count = self._repeats.count(said)
+        if count == 1:
+            self._say(said.targets, texts.SAID_AGAIN, "info")
+        return count > 0
 
     def _hear_all(self, hear: Sequence[tuple[str, ChatFeedback | None]], said: ChatInput) -> None:
         """Have something understood by those it was said to, each with the question that it answers."""

@@ -20,6 +20,7 @@ __all__ = [
     "NOT_DONE",
     "ONLY_LOOKS",
     "REST_LEFT",
+    "SAID_AGAIN",
     "SAY_CARRY_ON",
     "UNSURE",
     "alarm",
@@ -78,6 +79,7 @@ _NEVER_MIND: Final = re.compile(
 
 ONLY_LOOKS: Final = "You may look and stop, but not give orders here."
 REST_LEFT: Final = sentence("If there was more in what you said, please say it again.")
+SAID_AGAIN: Final = sentence("The same comes again and again. I take it as said once.")
 UNSURE: Final = sentence("I do not know yet whether I may do that.")
 NOT_DONE: Final = sentence("I have not done that.")
 SAY_CARRY_ON: Final = "I go on when you say “carry on”."
