@@ -31,6 +31,7 @@ from parley.messages.status import (
     StopCommand,
     StopReport,
 )
+from parley.messages.team import MissionList
 from parley.messages.topics import ALL_SERVICES, ALL_TOPICS, SYNC
 from parley.messages.wire import decode, encode
 
@@ -61,6 +62,7 @@ PAYLOADS: dict[str, tuple[type[BaseModel], ...]] = {
     "/parley/audit": (AuditEvent,),
     "/parley/attendance": (Attendance,),
     "/parley/rules_in_force": (RulesInForce,),
+    "/parley/missions": (MissionList,),
     "/parley/notice": (Notice,),
 }
 

@@ -5,7 +5,7 @@ import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 
 /** `two-robots`: the demonstration with a second one. */
-export type Program = 'demo' | 'two-robots';
+export type Program = 'demo' | 'fleet' | 'two-robots';
 
 export interface System {
   /** Where its page is, with a slash at the end. */
@@ -60,8 +60,8 @@ interface Running {
 
 function begin(program: Program, options: readonly string[]): Promise<Running> {
   const [command, ...first] =
-    program === 'demo'
-      ? [PARLEY, 'demo', 'nursing-home', '--no-open']
+    program !== 'two-robots'
+      ? [PARLEY, 'demo', program === 'fleet' ? 'fleet' : 'nursing-home', '--no-open']
       : [join(dirname(PARLEY), 'python'), '-m', 'tests.web.e2e.two_robots'];
   const child = spawn(command ?? PARLEY, [...first, ...options], { cwd: resolve('..'), stdio: 'pipe' });
   return new Promise((settle, reject) => {

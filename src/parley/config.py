@@ -382,6 +382,11 @@ class SystemConfig(BaseModel, TextFile):
         return self.data_dir / "proposals.db" if self.data_dir is not None else None
 
     @property
+    def missions_file(self) -> Path | None:
+        """The orders to teams that were followed last, None if they are not kept."""
+        return self.data_dir / "missions.db" if self.data_dir is not None else None
+
+    @property
     def found_file(self) -> Path | None:
         """What robots found and no map knew, None if it is not kept."""
         return self.data_dir / "found_things.json" if self.data_dir is not None else None

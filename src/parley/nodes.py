@@ -39,6 +39,7 @@ from parley.language.base import Language
 from parley.memory.embedder import configured_embedder
 from parley.memory.incidents import IncidentStore
 from parley.memory.meanings import Meanings
+from parley.memory.missions import MissionStore
 from parley.memory.proposals import ProposalStore
 from parley.memory.store import MemoryStore
 from parley.messages.chat import ActionCall
@@ -188,6 +189,9 @@ class Nodes:
         )
         await stack.enter_async_context(self._speaking(recovery))
         self._incidents = list(recovery.left_over)
+        missions = await stack.enter_async_context(
+            await MissionStore.open(config.missions_file or ":memory:", self._clock)
+        )
         chat = ChatInterface(
             self._transport,
             self._language,
@@ -199,6 +203,7 @@ class Nodes:
             rooms=self.sites.rooms,
             soon=self.sites.soon,
             survey=self._survey,
+            missions=missions,
         )
         await stack.enter_async_context(self._speaking(chat))
 

@@ -11,8 +11,11 @@ import pytest
 from parley.config import SystemConfig
 from parley.demos.catalogue import load_demo
 from parley.messages import topics
-from parley.messages.chat import ChatFeedback
+from parley.messages.chat import ChatAction, ChatFeedback, SystemCommand
+from parley.messages.principal import person
 from parley.messages.status import ActorStatus
+from parley.messages.team import MissionList, MissionPart
+from parley.messages.wire import decode
 from tests.demos.house import PATIENCE_S, House, played, running
 
 ROBOTS = ("Spot", "TIAGo", "Leo")
@@ -173,3 +176,33 @@ async def test_story_holds_and_breaks_where_the_world_makes_it(
     ended, events, _ = await played(load_demo("fleet"), tmp_path, variant, seed=3)
     assert ended.partition(":")[0] == reason
     assert [event for event in events if event["event"] == "failure"] == []
+
+
+async def test_one_order_is_seen_as_one_and_its_end_is_told_truly(tmp_path: Path) -> None:
+    async with hall(data_dir=tmp_path) as home:
+        seen: list[MissionList] = []
+        await home.system.transport.subscribe(
+            topics.MISSIONS, lambda message: seen.append(decode(MissionList, message.data))
+        )
+
+        def parts() -> dict[str, MissionPart]:
+            return {part.robot: part for mission in seen[-1].missions for part in mission.parts}
+
+        await told(home, "Check all three areas", *ROBOTS)
+        await home.observer.until(lambda: all(p.state == "running" for p in parts().values()))
+        leo = parts()["Leo"]
+        await home.say("go to the pump", "Leo")
+        order = ChatAction(
+            system_cmd=(SystemCommand(command="clear", arguments={"order": leo.order}),),
+            targets=("Leo",),
+            by=person("Kim"),
+        )
+        home.observer.publish(topics.CHAT_ACTION, order)
+        await home.observer.until(lambda: bool(seen[-1].missions[0].closing), timeout_s=PATIENCE_S)
+        assert {name: part.state for name, part in parts().items()} == {
+            "Spot": "done", "TIAGo": "done", "Leo": "undone",
+        }  # fmt: skip
+        closing = seen[-1].missions[0].closing
+        assert "Leo has not done: " in closing
+        assert "Spot" not in closing
+        assert "pump" in str(goals(home)["Leo"])  # only the part was dropped

@@ -40,6 +40,13 @@ BODIES: dict[tuple[str, str], list[tuple[Any, Effect]]] = {
         ({"id": "p1", "decision": "reject"}, Effect.REJECT),
         ({"id": "p1", "decision": "edit", "steps": []}, Effect.APPROVE),
     ],
+    ("POST", "/api/missions/{identity}/command"): [
+        ({"command": "pause"}, Effect.PAUSE),
+        ({"command": "resume"}, Effect.RESUME),
+        ({"command": "clear"}, Effect.CLEAR),
+        ({"command": "approve"}, Effect.APPROVE),
+        ({"command": "reject"}, Effect.REJECT),
+    ],
     ("PUT", "/api/plans/{robot}/policy"): [({"policy": "ask_first"}, Effect.POLICY)],
     ("PUT", "/api/plans/{robot}/steps"): [({"steps": [], "revision": 0}, Effect.EDIT)],
     ("POST", "/api/robots"): [({"name": "Kim's cart"}, Effect.SETTING)],

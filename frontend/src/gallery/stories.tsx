@@ -5,7 +5,8 @@ import { LogPart } from '@/features/log';
 import { MapPanel } from '@/features/map';
 import { MemoryPage } from '@/features/memory';
 import { RobotsPage } from '@/features/robots';
-import { incident, logPage, mapInfo, mapView, memory, robot } from '@/live/samples';
+import { MissionCard } from '@/ui/mission-card';
+import { incident, logPage, mapInfo, mapView, memory, mission, missionPart, robot } from '@/live/samples';
 import type { AbilityView, FeedInfo, Snapshot } from '@/live/types';
 
 import type { Answers } from './network';
@@ -45,6 +46,8 @@ export const stories: readonly Story[] = [
   { name: 'Pictures, loading', snapshot: null, answers: {}, part: () => <DisplayPanel />, shows: 'common:loading' },
   { name: 'Pictures, empty', snapshot: { robots }, answers: {}, part: () => <DisplayPanel />, shows: 'display:emptyText' },
   { name: 'Pictures', snapshot: { robots, feeds: [feed('camera', true), feed('inspection', false)] }, answers: {}, part: () => <DisplayPanel />, shows: 'display:names.camera' },
+  { name: 'Together', snapshot: { robots }, answers: {}, part: () => <MissionCard mission={mission({ id: 'm' })} />, shows: 'missions:partsDone_other' },
+  { name: 'Together, one needs help', snapshot: { robots }, answers: {}, part: () => <MissionCard mission={mission({ id: 'm', parts: [missionPart({ robot: 'Ada', state: 'held' }), missionPart({ robot: 'Bob', state: 'waiting', after: ['Ada'] })] })} />, shows: 'missions:waitsFor' },
   { name: 'Map, no robot', snapshot: {}, answers: {}, part: () => <MapPanel />, shows: 'map:noRobot' },
   { name: 'Map, loading', snapshot: { robots: [robot({ name: 'Dan' })] }, answers: { map: 'never' }, part: () => <MapPanel />, shows: 'common:loading' },
   { name: 'Map, failed', snapshot: { robots: [robot({ name: 'Dan' })] }, answers: { map: refused }, part: () => <MapPanel />, shows: 'map:empty' },

@@ -143,6 +143,11 @@ export const commandPlan = (robot: string, command: PlanCommand, index?: number)
   request<unknown>('POST', `plans/${part(robot)}/command`, index === undefined ? { command } : { command, index });
 export const decidePlan = (robot: string, decision: Decision) =>
   request<unknown>('POST', `plans/${part(robot)}/decision`, decision);
+export type MissionCommand = 'pause' | 'resume' | 'clear' | 'approve' | 'reject';
+
+/** @param wish.shown By proposal what it was when it was shown; only for a yes. */
+export const commandMission = (id: string, command: MissionCommand, wish: { robot?: string; shown?: Readonly<Record<string, string>> } = {}) =>
+  request<unknown>('POST', `missions/${part(id)}/command`, { command, ...wish });
 export const putPolicy = (robot: string, policy: Policy) =>
   request<unknown>('PUT', `plans/${part(robot)}/policy`, { policy });
 export const putSteps = (robot: string, steps: readonly ActionCall[], revision: number) =>

@@ -7,6 +7,8 @@ import type {
   MapInfo,
   MapView,
   MemoryItem,
+  MissionInfo,
+  MissionPart,
   PlanView,
   RobotView,
   RoundView,
@@ -150,6 +152,30 @@ export const snapshot = (part: Partial<Snapshot> = {}): Snapshot => ({
   incidents: [],
   views: [],
   favourites: [],
+  missions: [],
+  ...part,
+});
+
+export const missionPart = (part: Partial<MissionPart> & { robot: string }): MissionPart => ({
+  order: `order of ${part.robot}`,
+  state: 'running',
+  lines: ['Check the box'],
+  why: '',
+  after: [],
+  label: '',
+  done: 0,
+  count: 1,
+  left: [],
+  proposal: '',
+  ...part,
+});
+
+export const mission = (part: Partial<MissionInfo> & { id: string }): MissionInfo => ({
+  words: 'Check all boxes.',
+  by: null,
+  reply_to: '',
+  parts: [missionPart({ robot: 'Ada' }), missionPart({ robot: 'Bob', state: 'done', done: 1 })],
+  closing: '',
   ...part,
 });
 

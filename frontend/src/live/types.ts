@@ -17,6 +17,8 @@ export type RuleFinding = Schemas['RuleFinding'];
 export type RuleVerdict = Schemas['RuleVerdict'];
 export type RuleView = Schemas['RuleView'];
 export type RulesAnswer = Schemas['RulesAnswer'];
+export type MissionInfo = Schemas['MissionInfo'];
+export type MissionPart = Schemas['MissionPart'];
 export type StepView = Schemas['StepView'];
 export type ParameterView = Schemas['ParameterView'];
 export type ParameterInfo = Schemas['ParameterInfo'];
@@ -58,6 +60,7 @@ export type Change =
   | Schemas['FeedChange']
   | Schemas['MemoryChange']
   | Schemas['FavouritesChange']
+  | Schemas['MissionsChange']
   | Schemas['RulesChange']
   | Schemas['IncidentChange']
   | Schemas['RejectionChange'];

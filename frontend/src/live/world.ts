@@ -6,6 +6,7 @@ import type {
   FeedInfo,
   Incident,
   MapView,
+  MissionInfo,
   PlanView,
   ProposalView,
   RobotView,
@@ -40,6 +41,8 @@ export interface World {
   /** The same for rules. */
   ruleChanges: number;
   favourites: readonly Favourite[];
+  /** Orders to several robots, oldest first. */
+  missions: readonly MissionInfo[];
   /** Refusals, newest last. */
   notices: readonly Notice[];
 }
@@ -62,6 +65,7 @@ export const emptyWorld: World = {
   memoryChanges: 0,
   ruleChanges: 0,
   favourites: [],
+  missions: [],
   notices: [],
 };
 
@@ -91,6 +95,7 @@ export function fromSnapshot(snapshot: Snapshot, before: World = emptyWorld): Wo
     memoryChanges: before.memoryChanges + 1,
     ruleChanges: before.ruleChanges + 1,
     favourites: snapshot.favourites,
+    missions: snapshot.missions,
     notices: before.notices,
   };
 }
@@ -146,6 +151,8 @@ function applyOther(world: World, change: Change): World {
   switch (change.kind) {
     case 'favourites':
       return { ...world, favourites: change.favourites };
+    case 'missions':
+      return { ...world, missions: change.missions };
     case 'memory':
       return { ...world, memoryChanges: world.memoryChanges + 1 };
     case 'rules':

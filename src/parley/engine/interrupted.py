@@ -9,10 +9,21 @@ from typing import Any, Final
 from parley.umrf.model import ACTIVE, Graph, GraphState, Node, NodeState
 from parley.umrf.saved import SavedRun
 
-__all__ = ["FLOW_KEY", "Interrupted", "flow_of"]
+__all__ = ["FLOW_KEY", "ORDER_KEY", "Interrupted", "flow_of", "order_of"]
 
 FLOW_KEY: Final = "parley_flow"
 """Under `gui_attributes`, which engines carry along unread: what a node depends on."""
+
+
+ORDER_KEY: Final = "parley_order"
+"""There, too: which order a node carries out."""
+
+
+def order_of(node: Node) -> str:
+    """`id` of the order that a node carries out, as the planner wrote it; may be empty."""
+    attributes = node.gui_attributes
+    order = attributes.get(ORDER_KEY) if isinstance(attributes, dict) else None
+    return order if isinstance(order, str) else ""
 
 
 def flow_of(node: Node) -> dict[str, Any]:

@@ -161,6 +161,8 @@ class PlanStep(Payload):
     )
     for_next: bool = False
     """Whether it only finds out what the next one needs: people read the two as one."""
+    order: str = ""
+    """`id` of the order that it carries out, if that has one."""
 
 
 class PlanUpdate(Payload):
@@ -179,6 +181,8 @@ class PlanUpdate(Payload):
     """Who told the robot to stand still; None: nobody."""
     waits: tuple[str, ...] | None = None
     """The proposals that wait for a yes, by their ids, oldest first: no other does. None: it is not told."""
+    later: tuple[str, ...] = ()
+    """The orders, by `id`, that begin when other robots have done theirs."""
 
 
 class PlanProposal(Payload):

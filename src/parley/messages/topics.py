@@ -101,6 +101,7 @@ MAP_VIEW = _string("/parley/map_view", depth=10)
 AUDIT = _string("/parley/audit", depth=10_000)
 ATTENDANCE = _string("/parley/attendance", latched=True)
 RULES_IN_FORCE = _string("/parley/rules_in_force", latched=True, depth=1)
+MISSIONS = _string("/parley/missions", latched=True, depth=1)
 NOTICE = _string("/parley/notice")
 
 GET_MEMORY = Service("get_memory", ros.ChatRequest, ros.ChatResponse, "nl_interface_msgs/srv/Chat")
@@ -119,7 +120,7 @@ ALL_TOPICS: tuple[Topic[Any], ...] = (
     DISPLAY_FEED, GRAPH_START, GRAPH_MODIFY, GRAPH_PAUSE, GRAPH_PAUSE_TEMOTO, GRAPH_RESUME, GRAPH_STOP,
     GRAPH_FEEDBACK, ACTOR_STATUS, GRAPH_EVENTS, PLAN, PLAN_DECISION, STEP, STOP, STOP_REPORT, REJECTION, SYNC,
     MEMORY_EVENT, REPLY_DRAFT, INCIDENT, MAP_VIEW, AUDIT, RULING, ATTENDANCE,
-    RULES_IN_FORCE, NOTICE,
+    RULES_IN_FORCE, MISSIONS, NOTICE,
 )  # fmt: skip
 ALL_SERVICES = (GET_MEMORY, GRAPH_GET, GET_INCIDENTS, GET_MAP, GET_AUDIT, RULES)
 

@@ -30,6 +30,7 @@ from parley.web.routes import (
     map,
     me,
     memory,
+    missions,
     models,
     people,
     plans,
@@ -44,8 +45,8 @@ from parley.web.routes import (
 __all__ = ["create_api", "create_app", "openapi_text"]
 
 _RESOURCES = (
-    health, session, me, people, snapshot, chat, favourites, stop, plans, robots, memory, rules, incidents,
-    log, history, map, models, feeds, push,
+    health, session, me, people, snapshot, chat, favourites, stop, plans, missions, robots, memory, rules,
+    incidents, log, history, map, models, feeds, push,
 )  # fmt: skip
 
 

@@ -339,6 +339,16 @@ class PlanCommandPost(WebModel):
     """For `pop`: which pending step, from 0."""
 
 
+class MissionCommandPost(WebModel):
+    """Control what several robots do together, or one robot's part of it."""
+
+    command: Literal["pause", "resume", "clear", "approve", "reject"]
+    robot: Annotated[str, Field(max_length=100)] = ""
+    """Whose part; empty: all parts."""
+    shown: Annotated[dict[str, str], Field(max_length=100)] = Field(default_factory=dict)
+    """For `approve`: by key of each proposal its digest, as it was shown."""
+
+
 class DecisionPost(WebModel):
     """Decide about a proposal."""
 

@@ -28,6 +28,7 @@ from parley.messages.status import (
     StopCommand,
     StopReport,
 )
+from parley.messages.team import MissionList
 from parley.messages.topics import Service, Topic
 from parley.messages.wire import decode, decode_plan, encode, load_json, to_string
 from parley.transport.base import Publisher, Transport
@@ -140,6 +141,7 @@ class Link:
         await self._listen(topics.MEMORY_EVENT, _reader(MemoryEvent), self._on_memory)
         await self._listen(topics.AUDIT, _reader(AuditEvent), state.on_audit)
         await self._listen(topics.INCIDENT, _reader(Incident), state.on_incident)
+        await self._listen(topics.MISSIONS, _reader(MissionList), state.on_missions)
         await self._listen(topics.MAP_VIEW, _reader(MapView), self._on_view)
         for work in (self._tick(), self._fetch_incidents()):
             task = asyncio.create_task(work, name="web link")

@@ -19,6 +19,7 @@ from parley.messages.plain import LineText, ShownText
 from parley.messages.principal import Principal
 from parley.messages.rules import RiskClass, Rule
 from parley.messages.status import ActionInfo, PoseInfo
+from parley.messages.team import MissionInfo
 
 __all__ = [
     "AbilityView",
@@ -301,6 +302,8 @@ class Snapshot(WebModel):
     incidents: tuple[Incident, ...] = ()
     views: tuple[MapView, ...] = ()
     favourites: tuple[Favourite, ...] = ()
+    missions: tuple[MissionInfo, ...] = ()
+    """Orders to several robots, oldest first."""
 
 
 class LogLine(WebModel):
@@ -461,6 +464,14 @@ class FavouritesChange(WebModel):
     favourites: tuple[Favourite, ...]
 
 
+class MissionsChange(WebModel):
+    """The orders to several robots are these now."""
+
+    kind: Literal["missions"] = "missions"
+    seq: int
+    missions: tuple[MissionInfo, ...]
+
+
 class RulesChange(WebModel):
     """A rule holds or was dropped: ask again."""
 
@@ -496,6 +507,7 @@ Change = Annotated[
     | FeedChange
     | MemoryChange
     | FavouritesChange
+    | MissionsChange
     | RulesChange
     | IncidentChange
     | RejectionChange,

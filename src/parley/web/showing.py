@@ -17,6 +17,7 @@ __all__ = ["Reader", "language_of", "shown_in"]
 
 _WORDED: Final = frozenset(
     {"message", "label", "progress_text", "reason", "why", "description", "changes", "note", "asked", "tried"}
+    | {"lines", "left", "closing"}
     | {"language", "detail", "remedy", "title"}
 )
 """Fields that hold what is said to people."""

@@ -11,6 +11,7 @@ from parley.messages.incident import Incident
 from parley.messages.map import MapView
 from parley.messages.memory import MemoryEvent
 from parley.messages.status import GraphEvent, PlanProposal, PlanUpdate, Rejection
+from parley.messages.team import MissionInfo, MissionList
 from parley.web.changes import ChangeLog
 from parley.web.chat_state import ChatBook, KeepPictures
 from parley.web.feed_state import FeedBook
@@ -22,6 +23,7 @@ from parley.web.models import (
     FavouritesChange,
     IncidentChange,
     MemoryChange,
+    MissionsChange,
     RejectionChange,
     RulesChange,
     ServerInfo,
@@ -71,6 +73,7 @@ class WebState:
         self.incidents: Latest[str, Incident] = Latest(INCIDENTS_KEPT)
         self.views: dict[str, MapView] = {}
         self.favourites: tuple[Favourite, ...] = ()
+        self.missions: tuple[MissionInfo, ...] = ()
 
     def show(self, entry: ChatEntry) -> None:
         """Tell everybody of a chat entry."""
@@ -97,6 +100,11 @@ class WebState:
         """They are these now."""
         self.favourites = tuple(favourites)
         self.log.add(FavouritesChange(seq=0, favourites=self.favourites))
+
+    def on_missions(self, told: MissionList) -> None:
+        """What has become of orders to several robots."""
+        self.missions = told.missions
+        self.log.add(MissionsChange(seq=0, missions=told.missions))
 
     def on_memory(self, event: MemoryEvent) -> None:
         """Something was remembered or forgotten."""
@@ -145,6 +153,7 @@ class WebState:
             incidents=tuple(self.incidents.values()),
             views=tuple(self.views.values()),
             favourites=self.favourites,
+            missions=self.missions,
         )
 
     def _on_entry(self, entry: ChatEntry) -> None:

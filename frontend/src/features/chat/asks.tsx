@@ -4,6 +4,7 @@ import { Link } from 'wouter';
 
 import { decidePlan } from '@/live/api';
 import { linesOf } from '@/live/lines';
+import { withMission } from '@/live/missions';
 import { useWorld } from '@/live/store';
 import type { ChatEntry, ProposalView } from '@/live/types';
 import { attempt } from '@/state/do';
@@ -28,9 +29,14 @@ interface Props {
 export function Asks({ chosen, asked, onChoose }: Props) {
   const { t } = useTranslation('chat');
   const proposals = useWorld((world) => world.proposals);
+  const missions = useWorld((world) => world.missions);
   const waiting = useMemo(
-    () => [...Object.values(proposals).filter((one) => chosen.includes(one.robot)), ...asked].toReversed(),
-    [proposals, chosen, asked],
+    () => {
+      const elsewhere = withMission(missions);
+      const own = Object.values(proposals).filter((one) => chosen.includes(one.robot) && !elsewhere.has(one.id));
+      return [...own, ...asked].toReversed();
+    },
+    [proposals, missions, chosen, asked],
   );
   const [back, setBack] = useState(0);
   const at = back % Math.max(1, waiting.length);

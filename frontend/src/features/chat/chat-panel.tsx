@@ -9,6 +9,8 @@ import { draftKey, useDrafts } from '@/state/drafts';
 import { useMoment } from '@/state/moment';
 import { usePrefs } from '@/state/prefs';
 import { useSelection, useSelectionStore } from '@/state/selection';
+import { MissionCard } from '@/ui/mission-card';
+import { goesOn, isOf } from '@/live/missions';
 import { Icon, type IconName } from '@/ui/icon';
 import { Panel } from '@/ui/panel';
 import { useLayout } from '@/ui/use-media';
@@ -33,6 +35,7 @@ export function ChatPanel() {
   const { t } = useTranslation('chat');
   const chat = useWorld((world) => world.chat);
   const chosen = useSelection();
+  const missions = useWorld((world) => world.missions);
   const phone = useLayout() === 'phone';
   const send = useOutbox((outbox) => outbox.send);
   const { debug, set } = usePrefs();
@@ -102,6 +105,11 @@ export function ChatPanel() {
         onEdit={edit}
         empty={<Welcome chosen={chosen} onSay={say} />}
       />
+      {missions
+        .filter((mission) => goesOn(mission) && isOf(mission, chosen))
+        .map((mission) => (
+          <MissionCard key={mission.id} mission={mission} isFolded={phone || mission.parts.every((part) => part.state !== 'asked')} />
+        ))}
       <Asks chosen={chosen} asked={askedHere} onChoose={choose} />
       {maySpeak && alone && <Tour robot={alone} asks={askedHere.length > 0} />}
       {maySpeak && <Composer chosen={chosen} answering={answer} lastSaid={lastSaid} input={input} />}

@@ -10,6 +10,8 @@ import { Icon } from '@/ui/icon';
 import { Empty, Loading, Panel } from '@/ui/panel';
 
 import { pendingSteps, toDrafts } from './editing';
+import { MissionCard } from '@/ui/mission-card';
+import { goesOn, isOf } from '@/live/missions';
 import { PlanControls } from './plan-controls';
 import { PlanEditor } from './plan-editor';
 import { isEarlier, linesOf, type Line } from '@/live/lines';
@@ -87,6 +89,7 @@ function PlanOf({ plan }: { plan: PlanView }) {
       </div>
       {/* eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex -- what scrolls must be reachable by keys */}
       <div className={css.scroller} tabIndex={0} role="region" aria-label={t('steps')}>
+        <Together robot={plan.robot} />
         <Steps title={t('earlier')} from={0} lines={lines.slice(0, over)} plan={plan} isFolded={over < lines.length || waiting.length > 0} />
         <Steps title={t('now')} from={over} lines={lines.slice(over)} plan={plan} isEditing={editing !== null} onRemove={remove} list={steps} />
         {editing && (
@@ -117,6 +120,16 @@ function PlanOf({ plan }: { plan: PlanView }) {
       )}
     </>
   );
+}
+
+/** What the robot does with others: all that goes on, or else what ended last. */
+function Together({ robot }: { robot: string }) {
+  const missions = useWorld((world) => world.missions);
+  const own = missions.filter((mission) => isOf(mission, [robot]));
+  const going = own.filter(goesOn);
+  return (going.length > 0 ? going : own.slice(-1)).map((mission) => (
+    <MissionCard key={mission.id} mission={mission} isFolded={!goesOn(mission)} />
+  ));
 }
 
 /** The steps as lines, which of them is being done, and how many are over. */

@@ -7,6 +7,7 @@ export { default as log } from './log.json';
 export { default as map } from './map.json';
 export { default as memory } from './memory.json';
 export { default as menu } from './menu.json';
+export { default as missions } from './missions.json';
 export { default as people } from './people.json';
 export { default as plan } from './plan.json';
 export { default as robots } from './robots.json';

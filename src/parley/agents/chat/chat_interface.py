@@ -17,6 +17,7 @@ from parley.agents.chat.finishing import Finishing
 from parley.agents.chat.holds import Holds
 from parley.agents.chat.log_answers import log_answer
 from parley.agents.chat.memories import Confirmations
+from parley.agents.chat.mission_board import MissionBoard
 from parley.agents.chat.missions import Missions
 from parley.agents.chat.recollections import Recollections
 from parley.agents.chat.repeats import Repeats
@@ -39,6 +40,7 @@ from parley.language.control import Control, control_of
 from parley.language.dialogue.taught import taught_in, with_names
 from parley.language.stop_words import calls_to_stop, is_no, only_takes_back, opens_with_no
 from parley.memory.client import recall
+from parley.memory.missions import MissionStore
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.failure import ErrorHandlingMessage
@@ -83,6 +85,7 @@ class ChatInterface(Node):
         rooms: Parts of a robot's map with a name, as goals.
         soon: Waits a moment for what a robot has to tell of its map when it comes.
         survey: Says what each robot has before it, for sharing work; None: nobody can tell.
+        missions: Keeps what teams were told over restarts; None keeps it only while this process lives.
     """
 
     name: ClassVar[str] = "chat_interface"
@@ -102,6 +105,7 @@ class ChatInterface(Node):
         rooms: Callable[[str], Sequence[MapObject]] = lambda _: (),
         soon: Callable[[str], Awaitable[None]] | None = None,
         survey: Survey | None = None,
+        missions: MissionStore | None = None,
     ) -> None:
         super().__init__(transport)
         self._rules, self._soon = rules, soon
@@ -139,7 +143,10 @@ class ChatInterface(Node):
         )
         self._say = self._answering.say
         talk = TeamTalk(language, self._known, self._presence, survey, self._offered.newest)
-        self._missions = Missions(self, talk, self._answering, self._known, self._presence, language.label)
+        self._board = MissionBoard(self, missions)
+        self._missions = Missions(
+            self, talk, self._answering, self._known, self._presence, self._board, language.label
+        )
 
     async def open(self) -> None:
         """See `Node.open`."""
@@ -154,6 +161,7 @@ class ChatInterface(Node):
         await self.subscribe(topics.GRAPH_EVENTS, GraphEvent, self._known.on_event)
         await self.subscribe(topics.PLAN_DECISION, PlanDecision, self._on_decision)
         await self._answering.open()
+        await self._board.open()
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input, in_charge=True)
         self.spawn(self._presence.watch(), name="presence")
 
@@ -458,11 +466,13 @@ class ChatInterface(Node):
     def _on_plan(self, told: PlanUpdate | PlanProposal) -> None:
         if isinstance(told, PlanProposal):
             self._offered.on_proposal(told)
+            self._board.on_plan(told)
             return
         self._known.on_plan(told)
         self._offered.on_update(told)
         self._holds.on_update(told)
         self._missions.on_plan(told)
+        self._board.on_plan(told)
         status = self._presence.get(told.target)
         if done := self._finishing.on_update(told, status.catalogue if status else ()):
             self._say((told.target,), done, "info")

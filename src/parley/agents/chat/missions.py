@@ -9,6 +9,7 @@ from typing import Final
 from parley.agents.base import Node
 from parley.agents.chat import texts
 from parley.agents.chat.answering import Answering
+from parley.agents.chat.mission_board import MissionBoard
 from parley.agents.chat.situations import Situations
 from parley.agents.chat.team import Mission, Share, TeamTalk
 from parley.agents.planner.asking import SHALL_I, counted
@@ -21,6 +22,7 @@ from parley.latest import Latest
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.status import PlanDecision, PlanRuling, PlanUpdate
+from parley.messages.team import MissionInfo, MissionPart
 from parley.sentences import Sentence, sentence, together
 
 __all__ = ["Missions"]
@@ -38,6 +40,7 @@ class Missions:
         answering: Hands orders on.
         known: What was heard of each robot.
         presence: Who is there.
+        board: Where it is followed what becomes of them.
         engine: What the language engine is called.
     """
 
@@ -48,9 +51,10 @@ class Missions:
         answering: Answering,
         known: Situations,
         presence: Presence,
+        board: MissionBoard,
         engine: str,
     ) -> None:
-        self._node, self._talk, self._answering = node, talk, answering
+        self._node, self._talk, self._answering, self._board = node, talk, answering, board
         self._known, self._presence, self._engine = known, presence, engine
         self._mates: Latest[str, frozenset[str]] = Latest()
         """By robot who else was asked about in the same breath."""
@@ -70,6 +74,7 @@ class Missions:
 
     def on_presence(self, robot: str, joined: bool) -> None:
         """A robot came or left."""
+        self._board.on_presence(robot, joined)
         if not joined:
             plan = self._known.plans.get(robot)
             self._offer(robot, f"gone from {plan.graph_name if plan is not None else ''}")
@@ -138,12 +143,17 @@ class Missions:
         if orders is None:
             self._say((target,), texts.CANNOT, said)
             return
+        ids = {order.targets[0]: order.id for order in orders}
+        self._follow(said, mission, ids)
         rulings: dict[str, PlanRuling] = {}
         for order in orders:
             if self._answering.halted_since(halts, order.targets[0]):
                 continue
             for ruling in await self._answering.submit(order, said) or ():
                 rulings[ruling.target] = ruling
+        for name, order_id in ids.items():
+            if name not in rulings or rulings[name].outcome == "refused":
+                self._board.refuse(order_id)
         self._relieve(said, mission, rulings)
         team = self._presence.names() if any(share.why for share in mission.shares) else ()
         for share in mission.shares if team else ():
@@ -157,6 +167,37 @@ class Missions:
         for name in robots:
             self._known.note(name, said.message, reply)
         self._say(robots, reply, said)
+
+    def _follow(self, said: ChatInput, mission: Mission, ids: Mapping[str, str]) -> None:
+        """Let it be seen as one, from before the first robot hears of it."""
+        parts = tuple(
+            MissionPart(
+                robot=share.robot,
+                order=ids[share.robot],
+                lines=tuple(self._node.spoken(line) for line in self._lines(share)),
+                why=self._node.spoken(share.why),
+                after=share.after,
+            )
+            for share in mission.shares
+        )
+        known = [self._board.relieve(name, parts) for name in mission.relieved]
+        if len(parts) > 1 and not any(known):
+            self._board.begin(
+                MissionInfo(
+                    id=uuid.uuid4().hex,
+                    words=said.message,
+                    by=said.who,
+                    reply_to=said.id,
+                    parts=parts,
+                )
+            )
+
+    def _lines(self, share: Share) -> Sequence[Sentence]:
+        """What a part is, as people read it."""
+        status = self._presence.get(share.robot)
+        catalogue = status.catalogue if status is not None else ()
+        calls = complete_calls(share.calls, catalogue)
+        return lines_of(calls, labels_of(calls, catalogue, self._known.objects(share.robot)), catalogue)
 
     def _relieve(self, said: ChatInput, mission: Mission, rulings: Mapping[str, PlanRuling]) -> None:
         """Give up what others take over: now, or once their yes is there."""
@@ -204,11 +245,7 @@ class Missions:
 
     def _told(self, share: Share, ruling: PlanRuling | None) -> Sentence:
         """A part in words: what will really be done of it, and why by that robot."""
-        status = self._presence.get(share.robot)
-        catalogue = status.catalogue if status is not None else ()
-        calls = complete_calls(share.calls, catalogue)
-        labels = labels_of(calls, catalogue, self._known.objects(share.robot))
-        lines: Sequence[str] = lines_of(calls, labels, catalogue)
+        lines: Sequence[str] = self._lines(share)
         if ruling is not None and ruling.lines:
             lines = ruling.lines
         steps = counted(lines)

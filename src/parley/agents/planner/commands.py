@@ -69,11 +69,7 @@ class Commands:
                 self._plans.held_by.pop(plan.target, None)
                 return left or plan.start()
             case "clear":
-                self._relay.drop(plan)
-                for proposal in self._plans.approvals.of(plan.target):
-                    self._plans.approvals.drop(proposal.id)
-                self._plans.held_by.pop(plan.target, None)
-                return [*self._plans.left.stop(plan.target), *plan.clear()]
+                return self._clear(plan, str(command.arguments.get("order", "")))
             case "skip" | "pop" if command.arguments.get("step"):  # the plan may be another by now
                 step = plan.meant(command)
                 return [Say(orders.STEP_OVER)] if step is None else plan.drop(step)
@@ -82,6 +78,17 @@ class Commands:
             case "pop":
                 return plan.pop(command.pop_index)
         return []  # memories are everybody's, see _remember
+
+    def _clear(self, plan: TargetPlan, order: str) -> list[PlanEffect]:
+        """Drop all that a robot is to do, or (with an order) only that."""
+        self._relay.drop(plan, order)
+        for proposal in self._plans.approvals.of(plan.target):
+            if order in ("", proposal.order):
+                self._plans.approvals.drop(proposal.id)
+        if order:
+            return plan.clear_order(order)
+        self._plans.held_by.pop(plan.target, None)
+        return [*self._plans.left.stop(plan.target), *plan.clear()]
 
     def append(
         self,
@@ -106,7 +113,7 @@ class Commands:
         still, before = plan.update().state == "paused", [*plan.steps]
         if calls:
             self._begin_for(plan.target, by)
-        effects = plan.append(calls, order.words)
+        effects = plan.append(calls, order.words, order.id)
         self._relay.note(order.id, plan, before)
         self._plans.send(plan, effects)
         if still and goes_on:

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from typing import Any, Final
 
 from parley.agents.planner.steps import Step, When, stages, verdict
-from parley.engine.interrupted import FLOW_KEY
+from parley.engine.interrupted import FLOW_KEY, ORDER_KEY
 from parley.umrf.model import ChildRelation, Graph, Node, NodeRef, ParentRelation, Response, Result
 
 __all__ = ["Link", "build_graph", "links"]
@@ -77,7 +77,7 @@ def build_graph(name: str, steps: Sequence[Step]) -> Graph:
             output_parameters=step.call.output_parameters,
             parents=tuple(parents[id(step)]),
             children=tuple(children[id(step)]),
-            gui_attributes=_flow_of(step, group[0]),
+            gui_attributes=_attributes_of(step, group[0]),
         )
         for group in groups
         for step in group
@@ -90,14 +90,15 @@ def build_graph(name: str, steps: Sequence[Step]) -> Graph:
     )
 
 
-def _flow_of(step: Step, first: Step) -> dict[str, Any] | None:
-    """The flow as the planner reads it back from a graph that outlived it; edges alone do not tell it."""
+def _attributes_of(step: Step, first: Step) -> dict[str, Any] | None:
+    """What the planner reads back from a graph that outlived it; edges alone do not tell it."""
     flow: dict[str, Any] = {}
     if step.when is not None:
         flow["if"] = {"node": step.when.step.node, "result": step.when.result}
     if step is not first:
         flow["together_with"] = first.node
-    return {FLOW_KEY: flow} if flow else None
+    found = {FLOW_KEY: flow} if flow else {}
+    return found | ({ORDER_KEY: step.order} if step.order else {}) or None
 
 
 def links(groups: Sequence[list[Step]]) -> list[Link]:

@@ -61,19 +61,20 @@ class TargetPlan(PlanState):
         self.reports = Reports(self, self._sync)
         """Takes what the engine reports."""
 
-    def append(self, calls: Sequence[ActionCall], words: str = "") -> list[Effect]:
+    def append(self, calls: Sequence[ActionCall], words: str = "", order: str = "") -> list[Effect]:
         """Add actions behind the plan; during a repair they wait, after one that failed they go first.
 
         Args:
             calls: The actions.
             words: By which words of a person.
+            order: By which order.
         """
         if not calls:
             return []
         if self.given_up:
             return self._replace_failed(calls)
         over = self._over
-        self.add(calls, words)
+        self.add(calls, words, order)
         if self.held:
             return []
         return self._sync.start() if over else self._sync.push()
@@ -86,7 +87,10 @@ class TargetPlan(PlanState):
         """
         over, free = self._over, {id(step) for step in self.not_begun}
         begun = [step for step in self.steps if id(step) not in free]
+        orders = {step.order for step in self.steps if id(step) in free}
         self.steps = [*begun, *steps_of(calls, begun, begun)]
+        for step in self.steps[len(begun) :] if len(orders) == 1 else ():
+            (step.order,) = orders
         return self._sync.start() if over and calls else self._sync.push()
 
     @property
@@ -152,6 +156,14 @@ class TargetPlan(PlanState):
             return []
         self.stopping, self.graph_name, self.run = self.graph_name, "", "stopping"
         return [StopGraph(self.stopping)]
+
+    def clear_order(self, order: str) -> list[Effect]:
+        """Drop what is left of one order; what else the robot is to do stays."""
+        mine = [step for step in self.pending if step.order == order]
+        if len(mine) == len(self.pending):
+            return self.clear() if mine else []
+        # From behind, so that the step in progress is ended when nothing of the order could follow it.
+        return [effect for step in reversed(mine) if step in self.pending for effect in self.drop(step)]
 
     def pop(self, index: int | None) -> list[Effect]:
         """Drop the pending step `index` (0 is the one being executed).
@@ -254,7 +266,7 @@ class TargetPlan(PlanState):
         at = min(self.steps.index(step) for step in [failed, *beside])
         steps = steps_of(calls, self.steps[:at])
         for step in steps:
-            step.words = failed.words
+            step.words, step.order = failed.words, failed.order
         place = self.steps.index(failed)
         self.steps[place : place + 1] = steps[-1:]
         self.steps[at:at] = steps[:-1]

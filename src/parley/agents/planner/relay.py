@@ -50,6 +50,7 @@ class Relay:
         self.begin: Callable[[TargetPlan, ChatAction, Sequence[ActionCall], Principal | None], None]
         """Puts steps behind a plan."""
         plans.changed = self.look
+        plans.later = lambda plan: tuple(one.order.id for one in self._waiting if one.plan is plan)
 
     def note(self, order: str, plan: TargetPlan, before: Sequence[Step]) -> None:
         """Steps of an order have just been put into a plan, which had those of `before`."""
@@ -66,7 +67,7 @@ class Relay:
             return False
         kept = self._proposals.keep(plan, order.model_copy(update={"after": (), "by": by}), calls)
         self._waiting.append(_Waiting(plan, order, calls, by, kept))
-        self.look()
+        self._plans.send(plan, [])
         return True
 
     def look(self) -> None:
@@ -93,9 +94,9 @@ class Relay:
         for one in [one for one in self._waiting if one.plan is plan]:
             self._ask(one, sentence("I was told to stop before I began"))
 
-    def drop(self, plan: TargetPlan) -> None:
-        """A robot's plan is given up, with what waits."""
-        for one in [one for one in self._waiting if one.plan is plan]:
+    def drop(self, plan: TargetPlan, order: str = "") -> None:
+        """A robot's plan is given up, with what waits; with an order only that."""
+        for one in [one for one in self._waiting if one.plan is plan and order in ("", one.order.id)]:
             self._over(one)
 
     def _over(self, one: _Waiting) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from parley.agents.planner.steps import Step, When, handed_over, previous, with_givers
-from parley.engine.interrupted import Interrupted, flow_of
+from parley.engine.interrupted import Interrupted, flow_of, order_of
 from parley.messages.chat import ActionCall
 from parley.sentences import sentence
 from parley.umrf.model import GraphState, Node, NodeState
@@ -23,13 +23,20 @@ def restored_steps(was: Interrupted) -> list[Step]:
     if not was.is_sequence:
         return []
     done = [
-        Step(_call(node), state="finished", outputs=dict(was.outputs.get(node.full_name, {})))
+        Step(
+            _call(node),
+            state="finished",
+            outputs=dict(was.outputs.get(node.full_name, {})),
+            order=order_of(node),
+        )
         for node in was.graph.nodes
         if node.state is NodeState.FINISHED
     ]
     steps: list[Step] = []
-    for call in with_givers([_call(node) for node in was.remaining], done):
-        steps.append(Step(call, fed=handed_over(call, steps[-1:])))
+    calls = with_givers([_call(node) for node in was.remaining], done)
+    orders = [order_of(node) for node in was.remaining]
+    for call, order in zip(calls, [*orders[: len(calls) - len(orders)], *orders], strict=True):
+        steps.append(Step(call, fed=handed_over(call, steps[-1:]), order=order))
     return steps
 
 
@@ -44,7 +51,7 @@ def adopted_steps(was: Interrupted) -> list[Step]:
     for node in was.graph.nodes:
         flow = flow_of(node)
         step = Step(_call(node), node.instance_id, outputs=dict(was.outputs.get(node.full_name, {})))
-        step.state = "finished" if node.state is NodeState.FINISHED else "queued"
+        step.state, step.order = "finished" if node.state is NodeState.FINISHED else "queued", order_of(node)
         if node.state is NodeState.ERROR:
             step.instance_id = -1  # done anew, as a node of its own
         leader, condition = steps.get(flow.get("together_with", "")), flow.get("if", {})

@@ -83,6 +83,8 @@ class RobotPlans:
         """Forgets what waits for a yes and is over; looked at whenever a plan changes."""
         self.changed: Callable[[], None] = lambda: None
         """Called whenever a plan has changed, or a robot has left."""
+        self.later: Callable[[TargetPlan], tuple[str, ...]] = lambda _: ()
+        """The orders of a robot that wait for other robots."""
         self.board = PlanBoard(self.catalogue, objects)
         self.held_by: dict[str, Principal] = {}
         """Who told each robot to stand still, until it goes on."""
@@ -261,7 +263,8 @@ class RobotPlans:
         for effect in effects:
             self._sender.send(plan, effect)
         self.settle(plan)
-        update = self.board.show(plan, self.approvals, self.held_by.get(plan.target))
+        held_by, later = self.held_by.get(plan.target), self.later(plan)
+        update = self.board.show(plan, self.approvals, held_by, later)
         if update is not None:
             self._node.publish(topics.PLAN, update)
         self.changed()

@@ -105,7 +105,9 @@ class PlanState:
             state = "paused" if still else "running"
         asking = self._asking() if self.asked and not self.held else None
         shown = [
-            PlanStep(action=call, id=step.id, node=step.node, state=_shown(step, step is asking))
+            PlanStep(
+                action=call, id=step.id, node=step.node, state=_shown(step, step is asking), order=step.order
+            )
             for step, call in zip(self.steps, listed(self.steps), strict=True)
         ]
         return PlanUpdate(target=self.target, graph_name=self.graph_name, state=state, steps=tuple(shown))
@@ -117,11 +119,11 @@ class PlanState:
 
     # -- changing the plan -----------------------------------------------------------------------------
 
-    def add(self, calls: Sequence[ActionCall], words: str = "") -> None:
+    def add(self, calls: Sequence[ActionCall], words: str = "", order: str = "") -> None:
         """Put actions behind the steps."""
         added = steps_of(calls, self.steps)
         for step in added:
-            step.words = words
+            step.words, step.order = words, order
         self.steps += added
 
     def leave_out_excluded(self) -> None:

@@ -79,6 +79,8 @@ class Step:
     """What it is called as long as the plan has it, whatever stands before it."""
     words: str = ""
     """By which words of a person it came into the plan."""
+    order: str = ""
+    """`id` of the order that it carries out; empty: of none that has one."""
 
     @property
     def node(self) -> str:
