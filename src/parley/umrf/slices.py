@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-import itertools
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 from typing import Final, TypeVar
 
 __all__ = ["SLICE", "in_slices"]
@@ -15,11 +14,9 @@ SLICE: Final = 250
 """So many are done in one turn of the loop."""
 
 
-def in_slices(items: Iterable[T], do: Callable[[T], None]) -> None:
+def in_slices(items: Sequence[T], do: Callable[[T], None]) -> None:
     """Do it for the first `SLICE` now, for the others in the next turns."""
-    left = iter(items)
-    for item in itertools.islice(left, SLICE):
+    for item in items[:SLICE]:
         do(item)
-    following = next(left, None)
-    if following is not None:
-        asyncio.get_running_loop().call_soon(in_slices, itertools.chain([following], left), do)
+    if left := items[SLICE:]:
+        asyncio.get_running_loop().call_soon(in_slices, left, do)
