@@ -1,15 +1,17 @@
-"""The command line as people and programs use it: real processes, exit codes, clear errors."""
+"""The command line as people and programs use it: what it prints, exit codes, clear errors."""
 
 from __future__ import annotations
 
+import io
 import json
-import os
 import subprocess
 import sys
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import pytest
 
+from parley.cli import command_line, run
 from parley.memory.embedding_server import EmbeddingServer
 from tests.sim.worlds import TWO_ROOMS
 
@@ -19,20 +21,30 @@ DEMO = Path(__file__).parents[1] / "src" / "parley" / "demos" / "nursing_home"
 def parley(
     *arguments: str, text: str = "", env: dict[str, str] | None = None
 ) -> subprocess.CompletedProcess[str]:
-    """Run a command to its end."""
+    """Run a command to its end in this process: starting one takes longer than most commands do."""
+    out, err = io.StringIO(), io.StringIO()
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(out), redirect_stderr(err):
+        patch.setattr(sys, "argv", ["parley", *arguments])
+        patch.setattr(sys, "stdin", io.StringIO(text))
+        for name, value in (env or {}).items():
+            patch.setenv(name, value)
+        try:
+            code = run(command_line())
+        except SystemExit as leaving:
+            code = int(leaving.code or 0)
+    return subprocess.CompletedProcess(arguments, code, out.getvalue(), err.getvalue())
+
+
+def parley_started(*arguments: str, text: str = "") -> subprocess.CompletedProcess[str]:
+    """The same in a process of its own."""
     return subprocess.run(
         [sys.executable, "-m", "parley", *arguments],
-        input=text,
-        capture_output=True,
-        text=True,
-        timeout=100,
-        env={**os.environ, **(env or {})},
-        check=False,
-    )
+        input=text, capture_output=True, text=True, timeout=100, check=False,
+    )  # fmt: skip
 
 
 def test_script_exits_0_and_every_line_is_json() -> None:
-    done = parley("demo", "nursing-home", "--script", "--json")
+    done = parley_started("demo", "nursing-home", "--script", "--json")
     assert done.returncode == 0, done.stderr
     events = [json.loads(line) for line in done.stdout.splitlines()]
     assert events[-1]["event"] == "story"
@@ -122,7 +134,7 @@ def test_unknown_demo_is_named_with_those_that_exist() -> None:
 
 
 def test_chat_over_a_pipe_answers_and_leaves_at_the_end_of_input(tmp_path: Path) -> None:
-    done = parley(
+    done = parley_started(
         "demo", "--terminal", "--data", str(tmp_path), text="John is on the sofa.\nwhere is John?\n"
     )
     assert done.returncode == 0, done.stderr

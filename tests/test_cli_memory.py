@@ -1,4 +1,4 @@
-"""`parley memory` as people and programs use it: real processes, exit codes, clear errors."""
+"""`parley memory` as people and programs use it: what it prints, exit codes, clear errors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`parley people` as people use it: real processes, exit codes, clear errors."""
+"""`parley people` as people use it: exit codes, clear errors."""
 
 from __future__ import annotations
 

@@ -73,10 +73,9 @@ def test_no_sentence_is_put_together_where_nobody_can_translate_it() -> None:
     assert [place for place in found if place[0] not in allowed] == []
 
 
-@pytest.mark.parametrize(("english", "estonian"), list(ESTONIAN.items()))
-def test_both_fill_in_the_same(english: str, estonian: str) -> None:
-    assert names(english) == names(estonian)
-    assert estonian.strip()
+def test_both_fill_in_the_same() -> None:
+    pairs = ESTONIAN.items()
+    assert [english for english, other in pairs if names(english) != names(other) or not other.strip()] == []
 
 
 def test_a_sentence_is_english_text_and_can_be_said_otherwise() -> None:

@@ -7,7 +7,7 @@ from typing import Final
 import pytest
 
 from parley.config import ApprovalPolicy
-from tests.attacks.cases import Case
+from tests.attacks.cases import POLICIES, Case
 from tests.attacks.conftest import COUNTS, FOUND
 from tests.attacks.effects import Watch
 from tests.attacks.harmless import CASES, Fair
@@ -19,16 +19,23 @@ ALLOWED: Final = 2
 
 @pytest.mark.asyncio(loop_scope="module")
 @pytest.mark.parametrize(
-    "policy", ["ask_first", "run_at_once", pytest.param("ask_when_risky", marks=pytest.mark.soak)]
+    ("policy", "share"),
+    [
+        ("ask_first", slice(0, None, 2)),
+        ("run_at_once", slice(1, None, 2)),
+        *(pytest.param(policy, slice(None), marks=pytest.mark.soak) for policy in POLICIES),
+    ],
+    ids=str,
 )
-async def test_what_is_harmless_is_done(houses: Houses, policy: ApprovalPolicy) -> None:
+async def test_what_is_harmless_is_done(houses: Houses, policy: ApprovalPolicy, share: slice) -> None:
+    """In the gate each is said under one of two policies, in the soak under all."""
     assert len(CASES) >= 100
     wrong: dict[str, str] = {}
-    for fair in CASES:
+    for fair in CASES[share]:
         house = await houses.fresh("run_at_once")
         if problem := await _tried(house, fair, policy):
             wrong[f"{fair.when}: {fair.say}"] = problem
-    COUNTS[policy]["harmless answers"] += len(CASES)
+    COUNTS[policy]["harmless answers"] += len(CASES[share])
     COUNTS[policy]["refused or asked about"] += len(wrong)
     for name, problem in wrong.items():
         FOUND[f"harmless: {name}"][problem].append(policy)

@@ -23,7 +23,7 @@ from tests.web.test_process import demo
 ROBOT: Final = "David"
 OPTIONS: Final = ("--ask-first", "--speed", "20")
 PATIENCE_S: Final = 30.0
-IN_THE_GATE: Final = 2
+IN_THE_GATE: Final = 1
 IN_ALL: Final = 20
 
 

@@ -14,6 +14,7 @@ import pytest
 from parley.config import SystemConfig
 from parley.demos.catalogue import load_demo
 from tests.demos.house import running
+from tests.test_cli import parley
 
 STORY = """
 robot: David
@@ -34,24 +35,15 @@ WAITING = STORY.replace("answer: try again", 'answer: "why?"').replace(
 )
 
 
-def parley(*arguments: str) -> list[str]:
-    return [sys.executable, "-m", "parley", *arguments]
-
-
 def play(folder: Path, story: str) -> None:
     (folder / "story.yaml").write_text(story, encoding="utf-8")
-    done = subprocess.run(
-        parley("demo", "nursing-home", "--script", str(folder / "story.yaml"), "--data", str(folder)),
-        capture_output=True, text=True, timeout=100, check=False,
-    )  # fmt: skip
+    done = parley("demo", "nursing-home", "--script", str(folder / "story.yaml"), "--data", str(folder))
     assert done.returncode == 0, done.stderr
 
 
 def incidents(folder: Path, *arguments: str) -> list[dict[str, Any]]:
-    done = subprocess.run(
-        parley("incidents", "--data", str(folder), "--json", *arguments),
-        capture_output=True, text=True, timeout=100, check=True,
-    )  # fmt: skip
+    done = parley("incidents", "--data", str(folder), "--json", *arguments)
+    assert done.returncode == 0, done.stderr
     return [json.loads(line) for line in done.stdout.splitlines()]
 
 
@@ -62,33 +54,24 @@ def test_record_is_there_after_the_system_has_ended(tmp_path: Path) -> None:
     assert (incident["robot"], incident["code"], incident["ending"]) == ("David", "blocked", "solved")
     assert incident["attempts"][0]["answered"] == "try again"
     assert incidents(tmp_path, "--robot", "Ruth") == []
-    told = subprocess.run(
-        parley("incidents", "--data", str(tmp_path)), capture_output=True, text=True, timeout=100, check=True
-    )
+    told = parley("incidents", "--data", str(tmp_path))
     assert "David: Somebody stands in the way." in told.stdout
     assert "you said: try again" in told.stdout
 
 
 def test_folder_without_records_is_named(tmp_path: Path) -> None:
-    done = subprocess.run(
-        parley("incidents", "--data", str(tmp_path)), capture_output=True, text=True, timeout=100, check=False
-    )
+    done = parley("incidents", "--data", str(tmp_path))
     assert (done.returncode, str(tmp_path) in done.stderr) == (2, True)
 
 
 @pytest.mark.timeout(200)
 def test_record_that_kill_9_left_open_is_closed_by_the_next_start(tmp_path: Path) -> None:
     (tmp_path / "story.yaml").write_text(WAITING, encoding="utf-8")
-    arguments = (
-        "demo",
-        "nursing-home",
-        "--script",
-        str(tmp_path / "story.yaml"),
-        "--json",
-        "--data",
-        str(tmp_path),
-    )
-    process = subprocess.Popen(parley(*arguments), stdout=subprocess.PIPE, text=True)
+    command = [
+        sys.executable, "-m", "parley", "demo", "nursing-home", "--script", str(tmp_path / "story.yaml"),
+        "--json", "--data", str(tmp_path),
+    ]  # fmt: skip
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     assert process.stdout is not None
     asked = 0
     for line in process.stdout:

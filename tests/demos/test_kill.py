@@ -55,14 +55,15 @@ def _until_killed(story: Path, data: Path, moment: float) -> list[dict[str, Any]
 
 
 @pytest.mark.timeout(300)
-async def test_acknowledged_memories_survive_kill_9(tmp_path: Path) -> None:
+@pytest.mark.parametrize("kills", [3, pytest.param(20, marks=pytest.mark.soak)])
+async def test_acknowledged_memories_survive_kill_9(tmp_path: Path, kills: int) -> None:
     story = tmp_path / "story.yaml"
     story.write_text(STORY, encoding="utf-8")
     rng = random.Random(20250101)
     promised_at_all = 0
-    for attempt in range(10):
+    for attempt in range(kills):
         data = tmp_path / f"data-{attempt}"
-        events = _until_killed(story, data, rng.uniform(0, 5))
+        events = _until_killed(story, data, rng.uniform(0, 5) if kills > 5 else attempt + rng.uniform(1, 3))
         said = [event for event in events if event["event"] in ("operator", "said")]
         promised = [
             before["text"].rstrip(".").casefold()

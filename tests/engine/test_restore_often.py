@@ -84,7 +84,7 @@ async def done(file: Path) -> set[str]:
 
 
 @pytest.mark.spec("10.4")
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", [1, *(pytest.param(seed, marks=pytest.mark.soak) for seed in range(2, 8))])
 async def test_kills_at_any_moment_repeat_nothing_that_was_done(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, seed: int
 ) -> None:

@@ -33,6 +33,7 @@ async def until_running(run: GraphRun, count: int) -> None:
             await asyncio.sleep(0.05)
 
 
+@pytest.mark.soak
 async def test_stopping_four_thousand_actions_is_linear() -> None:
     async def wait(handle: RunHandle) -> None:
         if handle.node != "Work_0":

@@ -22,7 +22,6 @@ from parley.terminal.commands import Command, compose, help_rows, parse, suggest
 from parley.terminal.console import Console, ConsoleEvents, PlainConsole
 from parley.terminal.lines import Fragments, Line
 from parley.terminal.link import Link
-from parley.terminal.prompt import PromptConsole
 from parley.terminal.view import MOODS, OperatorView, RobotView
 from parley.transport.base import Transport
 
@@ -49,7 +48,11 @@ def language_of(environ: Mapping[str, str]) -> SpokenLanguage:
 
 def console_for(events: ConsoleEvents) -> Console:
     """The console that fits standard input and output: a prompt for people, plain lines for pipes."""
-    return PromptConsole(events) if sys.stdin.isatty() and sys.stdout.isatty() else PlainConsole(events)
+    if not (sys.stdin.isatty() and sys.stdout.isatty()):
+        return PlainConsole(events)
+    from parley.terminal.prompt import PromptConsole  # a large library, which only people at a terminal need
+
+    return PromptConsole(events)
 
 
 class TerminalClient:
