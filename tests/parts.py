@@ -43,6 +43,9 @@ class Parts:
     """Of the page."""
     robot: Path | None = None
     """What the robot behind Nav2 is like; None: it is simulated in the engine's process."""
+    door: Path = Path()
+    """Settings of a simulator that can be seen without the router, by `eye`."""
+    eye: NetworkSettings = field(default_factory=NetworkSettings)
     speed: str = "1"
     """Of the simulator that stands behind Nav2, where it is a part."""
     processes: dict[str, asyncio.subprocess.Process] = field(default_factory=dict)
@@ -76,8 +79,9 @@ class Parts:
             "agents": ["node", "agents", "--data", str(self.folder / "agents")],
             "web": ["node", "web", "--no-open", "--port", str(self.port), "--data", str(self.folder / "web")],
         }[part]
+        settings = self.door if part == "simulator" else self.settings
         self.processes[part] = await asyncio.create_subprocess_exec(
-            sys.executable, "-m", "parley", *words, "--config", str(self.settings), *options,
+            sys.executable, "-m", "parley", *words, "--config", str(settings), *options,
             stdout=asyncio.subprocess.DEVNULL,
         )  # fmt: skip
 
@@ -138,14 +142,20 @@ async def parts(folder: Path, *names: str, speed: str = "1") -> AsyncIterator[Pa
         f"network: {{domain: {DOMAIN}, role: {role}, connect: [{at}], interface: ''}}\n", encoding="utf-8"
     )
     robot = folder / "robot.yaml" if "simulator" in names else None
+    seen = f"tcp/127.0.0.1:{free_port()}"
     if robot is not None:
         robot.write_text(ROBOT_FILE, encoding="utf-8")
-    made = Parts(folder, settings, free_port(), robot, speed)
+        (folder / "door.yaml").write_text(
+            f"network: {{domain: {DOMAIN}, listen: [{seen}], connect: [{at}], interface: ''}}\n",
+            encoding="utf-8",
+        )
+    eye = NetworkSettings(domain=DOMAIN, role="client", connect=(seen,), interface="")
+    made = Parts(folder, settings, free_port(), robot, folder / "door.yaml", eye, speed)
     async with AsyncExitStack() as stack:
         stack.push_async_callback(made.end)
         for name in (name for name in names if name in ("router", "simulator")):
             await made.start(name)
-            await until_open(at)
+            await until_open(at if name == "router" else seen)
         if "router" not in names:
             network = NetworkSettings(domain=DOMAIN, listen=(at,), interface="")
         made.transport = await stack.enter_async_context(transport_of(SystemConfig(network=network)))
@@ -164,7 +174,7 @@ async def parts(folder: Path, *names: str, speed: str = "1") -> AsyncIterator[Pa
 async def until_open(address: str) -> None:
     """Wait until somebody listens there."""
     host, _, port = address.partition("/")[2].rpartition(":")
-    async with asyncio.timeout(20):
+    async with asyncio.timeout(60):
         while True:
             with contextlib.suppress(OSError):
                 _, writer = await asyncio.open_connection(host, int(port))

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
+import os
 from pathlib import Path
 
 import pytest
 
+from parley.cli import up
+from parley.cli.on_loop import PULSE, on_loop
 from parley.config import NetworkSettings, SystemConfig
 from parley.deployment import Deployment
 from parley.errors import ConfigError, FileFormatError
@@ -78,3 +82,28 @@ def test_this_machine_is_the_only_one_or_the_one_that_is_named(tmp_path: Path) -
 def test_what_cannot_be_is_refused_with_its_place(tmp_path: Path, text: str, said: str) -> None:
     with pytest.raises(FileFormatError, match=said):
         load(tmp_path, text)
+
+
+@pytest.mark.parametrize(
+    ("script", "ended"), [("import time; time.sleep(60)", None), ("raise SystemExit(3)", 3)]
+)
+async def test_a_part_that_hangs_is_ended_as_one_that_ends(
+    script: str, ended: int | None, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    (tmp_path / "parley").mkdir()
+    (tmp_path / "parley" / "__init__.py").touch()
+    working = "import asyncio\nfrom os import environ, write\nwrite(int(environ['PARLEY_PULSE']), b'.')\n"
+    (tmp_path / "parley" / "__main__.py").write_text(working + script, encoding="utf-8")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    monkeypatch.setattr(up, "HANGS_AFTER_S", 0.2)
+    async with asyncio.timeout(30):
+        assert await up._until_it_ends([]) == ended
+
+
+def test_a_command_gives_signs_of_life_to_whoever_started_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    ours, its = os.pipe()
+    monkeypatch.setenv(PULSE, str(its))
+    assert on_loop(asyncio.sleep(0, "done")) == "done"
+    assert os.read(ours, 10) == b"."
+    os.close(ours)
+    os.close(its)

@@ -11,15 +11,20 @@ import pytest
 from PIL import Image
 
 from parley.agents.display.map_drawing import MapPicture
-from parley.agents.display.map_feed import FEED
+from parley.agents.display.map_feed import FEED, MapViews
+from parley.clock import WallClock
 from parley.config import SystemConfig
 from parley.demos.catalogue import load_demo
+from parley.errors import ActionFailure, FailureCode
 from parley.messages import topics
 from parley.messages.map import GetMap, MapInfo, MapView
 from parley.messages.ros import ChatRequest, CompressedImage, String
 from parley.messages.status import PoseInfo, Rejection
 from parley.messages.topics import display_topic
 from parley.messages.wire import decode, encode
+from parley.robots.own import RobotBase
+from parley.transport.local import LocalTransport
+from parley.world.geometry import Pose2D, Velocity
 from parley.world.object_map import MapObject
 from parley.world.occupancy import FREE, OCCUPIED, OccupancyMap
 from tests.demos.house import running
@@ -130,3 +135,31 @@ def test_robot_and_way_are_drawn_where_they_are(room: MapPicture) -> None:
     assert here.getpixel((360, 240)) != away.getpixel((360, 240))
     assert here.getpixel((480, 240)) != away.getpixel((480, 240))
     assert here.getpixel((240, 100)) == away.getpixel((240, 100))
+
+
+class Cart(RobotBase):
+    """One whose base did not answer at first."""
+
+    asked = 0
+
+    def pose(self) -> Pose2D:
+        self.asked += 1
+        if self.asked == 1:
+            raise ActionFailure(FailureCode.HARDWARE, "silent")
+        return Pose2D(1.0, 2.0)
+
+    def velocity(self) -> Velocity:
+        return Velocity()
+
+    def send(self, velocity: Velocity) -> None: ...
+
+
+async def test_where_a_robot_is_is_told_again_once_its_base_answers_again() -> None:
+    seen: list[MapView] = []
+    async with (
+        LocalTransport() as transport,
+        MapViews(transport, Cart("Kim"), "floor", WallClock()),
+    ):
+        await transport.subscribe(topics.MAP_VIEW, lambda told: seen.append(decode(MapView, told.data)))
+        await until(lambda: seen)
+    assert seen[0].pose == PoseInfo(x=1.0, y=2.0)

@@ -223,6 +223,19 @@ def test_failure_holds_the_robot_and_is_reported_once(plan: TargetPlan, engine: 
     assert plan.update().state == "held"
 
 
+def test_a_step_that_failed_while_all_stood_still_is_tried_again(plan: TargetPlan, engine: Engine) -> None:
+    engine.take(list(plan.append([look()])))
+    engine.fail(FailureCode.HARDWARE)
+    engine.graph_state = GraphState.PAUSED  # somebody had stopped it before
+    engine.report()
+    modify, resume = plan.start()
+    assert isinstance(modify, ModifyGraph) and isinstance(resume, ResumeGraph)
+    engine.take([modify])
+    engine.graph_state = GraphState.HALTED
+    (again,) = engine.report()
+    assert isinstance(again, ModifyGraph) and again.continue_from == "Look_1"
+
+
 def test_correction_replaces_the_failed_step_and_continues_there(plan: TargetPlan, engine: Engine) -> None:
     engine.take(list(plan.append([find("box"), drive()])))
     engine.fail(FailureCode.AMBIGUOUS)

@@ -13,7 +13,7 @@ from parley.engine.engine import ActionEngine
 from parley.errors import ActionFailure, FailureCode
 from parley.messages import ros, topics
 from parley.messages.principal import Principal, person
-from parley.messages.status import ActorStatus, GraphEvent, Rejection, StopCommand, StopReport
+from parley.messages.status import ActorStatus, GraphEvent, Rejection, StopCommand, StopReport, Trouble
 from parley.messages.wire import decode, to_string
 from parley.robots.base import CameraImage, LaserScan, NavigationControl, SeenPerson, Velocity
 from parley.transport.local import LocalTransport
@@ -49,6 +49,10 @@ class DummyRobot:
 
     def planned_path(self) -> tuple[tuple[float, float], ...]:
         return ()
+
+    def trouble(self) -> Trouble:
+        """Nothing."""
+        return ""
 
     def battery(self) -> float | None:
         return None

@@ -17,7 +17,7 @@ from parley.messages.status import StepCommand
 from parley.messages.wire import to_string
 from tests.umrf.spec_actions import CATALOGUE, chain, node, planner_chain
 
-from .rig import DummyRobot, rigged
+from .rig import DummyRobot, engine_of, rigged
 
 
 @pytest.mark.spec("D16", "12.2-better", "W4")
@@ -47,6 +47,15 @@ async def test_feedback_ends_with_the_last_state_of_each_graph() -> None:
         assert len(rig.feedback) < 30, "changes in quick succession are coalesced"
         assert {message.actor for message in rig.feedback} == {"A"}
         assert {item["state"] for item in rig.last_feedback("g")["actions"]} == {"FINISHED"}
+
+
+async def test_whoever_comes_back_is_told_how_graphs_stand_though_nothing_changes() -> None:
+    async with rigged() as rig, engine_of("B", rig) as engine:
+        rig.start(chain("g", [node("WaitFor", 0, seconds=60)]), targets=("B",))
+        await rig.until(lambda: rig.last_feedback("g").get("actions", [{}])[0].get("state") == "RUNNING")
+        rig.feedback.clear()
+        engine.beat()
+        await rig.until(lambda: rig.last_feedback("g")["graph_state"] == "RUNNING")
 
 
 @pytest.mark.spec("12.3", "W7")

@@ -270,6 +270,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "pose": POSE,
         "at_rest": False,
         "battery": 0.75,
+        "trouble": "pressed",
         "graphs": {"g": "RUNNING"},
         "catalogue": [ACTION_INFO],
         "map_name": "hall",

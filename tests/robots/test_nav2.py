@@ -222,10 +222,10 @@ async def test_a_button_pressed_on_the_robot_ends_the_drive_and_is_told() -> Non
         on.nav2.press(True)
         with pytest.raises(ActionFailure, match="emergency stop on me is pressed"):
             await drive
-        assert on.robot.emergency_pressed
+        assert on.robot.trouble() == "pressed"
         await until(lambda: on.nav2.robot.velocity().linear_mps < 0.02)
         on.nav2.press(False)
-        await until(lambda: not on.robot.emergency_pressed and not on.nav2.robot.stopped)
+        await until(lambda: not on.robot.trouble() and not on.nav2.robot.stopped)
         assert on.nav2.robot.velocity().linear_mps < 0.02  # what was called off is not taken up again
 
 

@@ -188,6 +188,19 @@ def test_a_heartbeat_from_before_the_stop_does_not_lift_it() -> None:
     assert stop_state(book) == "received"
 
 
+@pytest.mark.parametrize("sequence", [9, 0])
+def test_a_stop_that_a_robot_did_not_hear_is_told_to_it_when_it_is_heard_again(sequence: int) -> None:
+    book = RobotBook(lambda change: None)
+    book.on_status(ActorStatus(actor="A", sequence=5), now_s=0, unix_ms=0)
+    assert book.not_taken("A") is None
+    book.on_stop(StopCommand(id="s", by=KIM), now_s=1, unix_ms=1)
+    book.tick(now_s=1 + STOP_DEADLINE_S + 0.1)
+    book.on_status(ActorStatus(actor="A", sequence=sequence), now_s=9, unix_ms=9)
+    assert book.not_taken("A") == StopCommand(targets=("A",), id="s", by=KIM)
+    book.on_stop_report(StopReport(actor="A", id="s", state="silent"), unix_ms=9)
+    assert (book.views["A"].stop.state, book.not_taken("A")) == ("silent", None)
+
+
 def test_a_stop_that_reached_nobody_is_taken_back_by_a_reset_but_a_confirmed_one_is_not() -> None:
     book, _ = robots()
     beat(book)

@@ -24,6 +24,7 @@ export const robot = (part: Partial<RobotView> & { name: string }): RobotView =>
   pose: null,
   at_rest: true,
   battery: null,
+  trouble: '',
   map_name: '',
   policy: 'run_at_once',
   stop: { state: 'none', id: '', sent_unix_ms: 0, at_rest_unix_ms: 0 },

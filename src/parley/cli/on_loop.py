@@ -7,13 +7,18 @@ import os
 import signal
 import threading
 from collections.abc import Callable, Coroutine, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from types import FrameType
 from typing import Any, Final, TypeVar
 
-__all__ = ["interruptible", "on_loop"]
+__all__ = ["BEAT_S", "PULSE", "interruptible", "on_loop"]
 
 T = TypeVar("T")
+
+PULSE: Final = "PARLEY_PULSE"
+"""Environment variable with the number of a pipe on which whoever started a process hears that it works."""
+BEAT_S: Final = 1.0
+"""Wall time between two signs of life there."""
 
 _PATIENCE_S: Final = 5.0
 """How long the closing has before Ctrl-C, pressed again, cuts it short."""
@@ -55,7 +60,11 @@ class _Ending:
         if self.number:
             work.close()
             raise asyncio.CancelledError
-        return await work
+        beating = asyncio.create_task(_beat(), name="pulse")
+        try:
+            return await work
+        finally:
+            beating.cancel()
 
     def told(self, number: int, _: FrameType | None) -> None:
         """A signal came."""
@@ -68,6 +77,15 @@ class _Ending:
         if self._loop is not None and self._task is not None and not self._loop.is_closed():
             self._task.cancel()
             self._loop.call_soon_threadsafe(lambda: None)  # wakes a loop that waits
+
+
+async def _beat() -> None:
+    """Give signs of life to whoever wants them, and end with them."""
+    pulse = os.environ.get(PULSE, "")
+    with suppress(OSError):  # nobody wants them any more
+        while pulse.isdigit():
+            os.write(int(pulse), b".")
+            await asyncio.sleep(BEAT_S)
 
 
 @contextmanager

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import os
 import sys
 import tempfile
 from collections.abc import Sequence
@@ -12,7 +13,7 @@ from typing import Annotated, Final
 import typer
 
 from parley.agents.notices import Notifier
-from parley.cli.on_loop import on_loop
+from parley.cli.on_loop import PULSE, on_loop
 from parley.cli.output import quiet_logs
 from parley.clock import Clock, WallClock
 from parley.deployment import Deployment, PartToRun
@@ -27,6 +28,10 @@ AGAIN_S: Final = 1.0
 LATEST_S: Final = 30.0
 ENDS_WITHIN_S: Final = 10.0
 """Wall time that a part has to close in order."""
+BEGINS_WITHIN_S: Final = 60.0
+"""Wall time a part may take until it gives its first sign of life, and"""
+HANGS_AFTER_S: Final = 15.0
+"""between two of them. A robot whose part hangs stands long before."""
 _WRONG: Final = 2
 """Exit code of a part whose settings are wrong: starting it again would not help."""
 
@@ -83,20 +88,55 @@ async def _look_after(name: str, words: Sequence[str], notifier: Notifier, clock
         if code == _WRONG:
             raise ConfigError(f"{name} cannot run, see above")
         wait_s = AGAIN_S if clock.wall_s() - began_s > LATEST_S else min(2 * wait_s, LATEST_S)
-        typer.echo(f"parley: {name} has ended ({code}) and is started again", err=True)
+        how = "hung" if code is None else f"has ended ({code})"
+        typer.echo(f"parley: {name} {how} and is started again", err=True)
         await asyncio.sleep(wait_s)
         text = sentence("A part of me had ended by itself ({part}), and is started again.", part=name)
+        if code is None:
+            text = sentence("A part of me hung ({part}), and is started again.", part=name)
         notifier.tell(text, ())
 
 
-async def _until_it_ends(words: Sequence[str]) -> int:
-    """Run it in a session of its own, so that Ctrl-C reaches it only through us; its exit code."""
-    process = await asyncio.create_subprocess_exec(
-        sys.executable, "-m", "parley", *words, start_new_session=True
-    )
+async def _until_it_ends(words: Sequence[str]) -> int | None:
+    """Run it in a session of its own, so that Ctrl-C reaches it only through us; its exit code.
+
+    None: it hung, and was killed.
+    """
+    ours, its = os.pipe()
+    loop, life = asyncio.get_running_loop(), asyncio.Event()
     try:
-        return await process.wait()
+        process = await asyncio.create_subprocess_exec(
+            sys.executable, "-m", "parley", *words, start_new_session=True, pass_fds=(its,),
+            env=os.environ | {PULSE: str(its)},
+        )  # fmt: skip
     finally:
+        os.close(its)
+
+    def heard() -> None:
+        if os.read(ours, 1000):
+            life.set()
+        else:  # it has ended
+            loop.remove_reader(ours)
+
+    loop.add_reader(ours, heard)
+    ending = asyncio.ensure_future(process.wait())
+    within_s = BEGINS_WITHIN_S
+    try:
+        while True:
+            beating = asyncio.ensure_future(life.wait())
+            await asyncio.wait((ending, beating), timeout=within_s, return_when=asyncio.FIRST_COMPLETED)
+            beating.cancel()
+            if ending.done():
+                return ending.result()
+            if not life.is_set():
+                process.kill()
+                await ending
+                return None
+            life.clear()
+            within_s = HANGS_AFTER_S
+    finally:
+        loop.remove_reader(ours)
+        os.close(ours)
         if process.returncode is None:
             process.terminate()
             try:

@@ -76,6 +76,9 @@ SOURCE = "action_engine"
 COMMAND_DEPTH = 1000
 """Commands that may come at once; the reference loses all but one (W3)."""
 
+TOLD_AGAIN = 3
+"""So many of the newest graphs are told again to whoever comes: how they stand may not have reached them."""
+
 
 class ActionEngine:
     """Carries out graphs for one actor; use with ``async with``.
@@ -361,7 +364,9 @@ class ActionEngine:
         self.runs.restore(left.saved)
 
     def beat(self) -> None:
-        """Send a heartbeat now."""
+        """Tell whoever has come, or come back, how the graphs stand and that the robot is there."""
+        for run in [run for run in self.runs.all if not run.outer][-TOLD_AGAIN:]:
+            self._feedback.changed(run)
         self._status_changed()
 
     def _start(self, message: ros.UmrfGraphStart, raw: Raw) -> None:

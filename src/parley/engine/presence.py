@@ -103,6 +103,7 @@ class Presence:
                 pose=pose,
                 at_rest=at_rest,
                 battery=self._robot.battery() if self._robot is not None else None,
+                trouble=self._robot.trouble() if self._robot is not None else "",
                 graphs={run.name: run.state.value for run in self._runs.all},
                 catalogue=tuple(self._catalogue()),
                 unix_ms=self._unix_ms(),

@@ -31,6 +31,7 @@ __all__ = [
     "StopReport",
     "SyncEntry",
     "SyncNotice",
+    "Trouble",
 ]
 
 
@@ -97,6 +98,10 @@ class ActionInfo(Payload):
         return set(self.effects) == {"locates"}
 
 
+Trouble = Literal["", "silent", "pressed"]
+"""What keeps a robot from moving: `silent`: its base does not answer; `pressed`: a button on it."""
+
+
 class ActorStatus(Payload):
     """`/parley/actor_status`: heartbeat of one engine."""
 
@@ -110,6 +115,7 @@ class ActorStatus(Payload):
     """Whether the measured velocity is zero; None if the robot cannot tell."""
     battery: float | None = Field(default=None, ge=0, le=1)
     """How full it is; None if the robot cannot tell."""
+    trouble: Trouble = ""
     graphs: dict[str, str] = Field(default_factory=dict)
     """Graph name -> graph state."""
     catalogue: tuple[ActionInfo, ...] = ()

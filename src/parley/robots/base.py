@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, Literal, Protocol
 
+from parley.messages.status import Trouble
 from parley.world.geometry import Pose2D, Velocity
 
 if TYPE_CHECKING:  # who only writes a robot class need not load it
@@ -161,6 +162,10 @@ class Robot(Protocol):
 
     def battery(self) -> float | None:
         """How full it is, 0 to 1; None if the robot cannot tell."""
+        ...
+
+    def trouble(self) -> Trouble:
+        """What keeps it from moving, as far as it can tell."""
         ...
 
     async def image(self) -> CameraImage:

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Final
 
 from parley.clock import Clock, WallClock
 from parley.errors import ActionFailure, FailureCode
+from parley.messages.status import Trouble
 from parley.robots.base import (
     COMMAND_LIFETIME_S,
     CameraImage,
@@ -140,6 +141,10 @@ class RobotBase(ABC):
     def battery(self) -> float | None:
         """How full it is, 0 to 1; here it cannot tell."""
         return None
+
+    def trouble(self) -> Trouble:
+        """What keeps it from moving, which operators are told; here nothing."""
+        return ""
 
     @property
     def sight(self) -> Sight | None:

@@ -22,6 +22,7 @@ from parley.errors import (
 from parley.extras import needs
 from parley.messages.actions import GoalState
 from parley.messages.ros_robot import Bool, PoseStamped, Twist, Vector3
+from parley.messages.status import Trouble
 from parley.robots.base import CameraImage, DriveLimits, LaserScan, NavigationControl, Velocity
 from parley.robots.link import Link
 from parley.robots.own import RobotBase
@@ -147,10 +148,11 @@ class RosRobot(RobotBase):
         """See `RobotBase.own_map`: the one it drives by."""
         return self._senses.occupancy
 
-    @property
-    def emergency_pressed(self) -> bool:
-        """Whether a button on the robot holds it, as far as it tells."""
-        return self._senses.emergency
+    def trouble(self) -> Trouble:
+        """See `Robot.trouble`."""
+        if not self._senses.fresh(LOST_S):
+            return "silent"
+        return "pressed" if self._senses.emergency else ""
 
     def pose(self) -> Pose2D:
         """See `Robot.pose`."""

@@ -6,6 +6,7 @@ import asyncio
 from dataclasses import replace
 
 from parley.errors import ActionFailure, FailureCode
+from parley.messages.status import Trouble
 from parley.robots.base import CameraImage, LaserScan, NavigationControl, Robot, SeenPerson, Sight, Velocity
 from parley.umrf.motion import Motion
 from parley.world.geometry import Pose2D
@@ -54,6 +55,10 @@ class RunRobot:
     def battery(self) -> float | None:
         """See `Robot.battery`."""
         return self._robot.battery()
+
+    def trouble(self) -> Trouble:
+        """See `Robot.trouble`."""
+        return self._robot.trouble()
 
     async def image(self) -> CameraImage:
         """See `Robot.image`."""

@@ -10,6 +10,7 @@ from parley.errors import ActionFailure, FailureCode
 from parley.gate.book import RuleBook
 from parley.gate.fence import Fence
 from parley.gate.judge import RobotFacts
+from parley.messages.status import Trouble
 from parley.robots.base import (
     CameraImage,
     Detection,
@@ -96,6 +97,10 @@ class SimulatedRobot:
     def battery(self) -> float | None:
         """See `Robot.battery`."""
         return self._simulator.battery(self.name).told
+
+    def trouble(self) -> Trouble:
+        """See `Robot.trouble`."""
+        return ""
 
     def drive(self, velocity: Velocity) -> None:
         """See `Robot.drive`; does nothing while halted.

@@ -240,6 +240,8 @@ class Link:
         )
         if restarted:
             self._state.chat.on_restart(status.actor)
+        if (missed := self._state.robots.not_taken(status.actor)) is not None:
+            self.send(missed)
         if before is None or before.catalogue != status.catalogue:
             self._state.plans.on_catalogue(status.actor)
         if before is None or restarted:

@@ -18,7 +18,7 @@ from parley.messages.map import MapView
 from parley.messages.plain import LineText, ShownText
 from parley.messages.principal import Principal
 from parley.messages.rules import RiskClass, Rule
-from parley.messages.status import ActionInfo, PoseInfo
+from parley.messages.status import ActionInfo, PoseInfo, Trouble
 from parley.messages.team import MissionInfo
 
 __all__ = [
@@ -89,6 +89,7 @@ class RobotView(WebModel):
     at_rest: bool | None = None
     battery: float | None = None
     """0 to 1; None: not known."""
+    trouble: Trouble = ""
     map_name: str = ""
     policy: Policy = "run_at_once"
     stop: StopView = StopView()

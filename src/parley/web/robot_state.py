@@ -31,6 +31,8 @@ class RobotBook:
         self._seen_s: dict[str, float] = {}
         self._sequence: dict[str, int] = {}
         self._stop_s: dict[str, float] = {}
+        self._stops: dict[str, StopCommand] = {}
+        """The newest stop of each robot."""
         self._received: set[str] = set()
         """Whose engine confirmed the stop that is on."""
         self._policies: dict[str, Policy] = {}
@@ -55,7 +57,7 @@ class RobotBook:
     def remove(self, name: str) -> None:
         """Take a robot off the list; it comes back with its next heartbeat."""
         if self.views.pop(name, None) is not None:
-            for book in (self._seen_s, self._sequence, self._stop_s):
+            for book in (self._seen_s, self._sequence, self._stop_s, self._stops):
                 book.pop(name, None)
             self._received.discard(name)
             self._emit(RobotGone(seq=0, name=name))
@@ -88,6 +90,7 @@ class RobotBook:
                     "pose": status.pose,
                     "at_rest": status.at_rest,
                     "battery": status.battery,
+                    "trouble": status.trouble,
                     "map_name": status.map_name,
                     "graphs": status.graphs,
                     "catalogue": tuple(map(AbilityView.of, status.catalogue)),
@@ -111,13 +114,21 @@ class RobotBook:
         for name in self._meant(command.targets):
             view = self.views[name]
             if command.command == "stop":
-                self._stop_s[name] = now_s
+                self._stop_s[name], self._stops[name] = now_s, command
                 self._received.discard(name)
                 stop = StopView(state="sent", id=command.id, sent_unix_ms=unix_ms)
                 self._put(view.model_copy(update={"stop": stop}))
             elif name not in self._received and view.stop.state in ("sent", "silent"):
                 # Nobody ever took it, so nobody will confirm that it is taken back.
                 self._put(view.model_copy(update={"stop": StopView()}))
+
+    def not_taken(self, name: str) -> StopCommand | None:
+        """The stop that a robot did not hear, though it is heard itself: it was out of reach then."""
+        view = self.views.get(name)
+        if view is None or name in self._received or view.stop.state not in ("sent", "silent"):
+            return None
+        stop = self._stops.get(name)
+        return None if stop is None else stop.model_copy(update={"targets": (name,)})
 
     def on_stop_report(self, report: StopReport, *, unix_ms: int) -> None:
         """A robot tells what became of a stop."""
@@ -133,6 +144,8 @@ class RobotBook:
             stop = stop.model_copy(update={"id": stop.id or report.id})
             if report.state == "at_rest":
                 stop = stop.model_copy(update={"state": "at_rest", "at_rest_unix_ms": unix_ms})
+            elif report.state == "silent":
+                stop = stop.model_copy(update={"state": "silent"})
             elif stop.state in ("none", "sent"):
                 stop = stop.model_copy(update={"state": "received"})
             elif stop.state == "silent":
@@ -165,6 +178,8 @@ class RobotBook:
         """A heartbeat says too whether a stop is on, for those who came later than the stop."""
         name = status.actor
         if status.state != "stopped":
+            if restarted and name not in self._received and stop.state in ("sent", "silent"):
+                return stop  # it is told of it again
             if restarted:
                 self._received.discard(name)
                 return StopView()

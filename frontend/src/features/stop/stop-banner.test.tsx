@@ -45,6 +45,17 @@ const show = (...states: StopView['state'][]) => {
   return userEvent.setup();
 };
 
+it('says which robot somebody has to go and look after, and no more once it is well', () => {
+  const ada = robot({ name: 'Ada', trouble: 'pressed' });
+  const bob = robot({ name: 'Bob', trouble: 'silent' });
+  act(() => useLive.getState().takeSnapshot(snapshot({ robots: [ada, bob] })));
+  render(<StopBanner />);
+  screen.getByText(/button on Ada itself is pressed/);
+  screen.getByText(/base of Bob does not answer/);
+  act(() => useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada' }), { ...bob, trouble: '' }] })));
+  expect(screen.queryByText(/is pressed|does not answer/)).toBeNull();
+});
+
 describe('stopping', () => {
   it('stops all robots with one click', async () => {
     const user = show('none', 'none');

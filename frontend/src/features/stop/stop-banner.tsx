@@ -22,6 +22,7 @@ export function StopBanner() {
     <div className={css.banners} role="status" aria-live="assertive">
       <Pending />
       {answer?.kept === false && <NotKept />}
+      <Troubled />
       {stopped.length > SINGLY ? (
         <Many robots={stopped} />
       ) : (
@@ -51,6 +52,21 @@ function NotKept() {
     <p className={css.pending} data-failed>
       {t('notKept')}
     </p>
+  );
+}
+
+/** Robots that somebody has to go and look after. */
+function Troubled() {
+  const { t } = useTranslation('stop');
+  const robots = useWorld((world) => world.robots);
+  return Object.values(robots).map(
+    ({ name, connection, trouble }) =>
+      connection === 'here' &&
+      trouble && (
+        <p key={name} className={css.pending} data-failed>
+          {t(`trouble.${trouble}`, { name })}
+        </p>
+      ),
   );
 }
 

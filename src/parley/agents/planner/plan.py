@@ -134,7 +134,9 @@ class TargetPlan(PlanState):
     def start(self) -> list[Effect]:
         """Go on after a pause, or try a failed step again."""
         if self.held and self.failed is not None:
-            return self._replace_failed([self.failed.call])
+            effects = self._replace_failed([self.failed.call])
+            if self.run != "paused":  # else it stood still already when the step failed
+                return effects
         if not self.pending:
             return [Say("There is nothing left to go on with.")]
         self.pause_wanted = False
