@@ -142,9 +142,8 @@ def _check_nesting(text: str, value: Any) -> None:
 
 def _check_characters(text: str, value: Any) -> None:
     """Refuse halves of surrogate pairs: nothing downstream (UTF-8, SQLite) can hold them."""
-    if text.isascii() and (
-        "\\" not in text or "\\u" not in text
-    ):  # one character is found much sooner than two
+    # One character is found much sooner than two.
+    if text.isascii() and ("\\" not in text or "\\u" not in text):
         return
     try:
         json.dumps(value, ensure_ascii=False).encode()

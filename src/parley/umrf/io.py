@@ -7,8 +7,6 @@ use the `faithful` one, which reads back to the same graph.
 
 from __future__ import annotations
 
-import contextlib
-import functools
 import json
 import marshal
 from collections.abc import Mapping, Sequence
@@ -50,6 +48,8 @@ __all__ = [
 KEPT_GRAPHS: Final = 64
 """So many are kept as they were read and checked: rounds are done again, and by several robots."""
 KEPT_CHARS: Final = 50_000
+_read: Final[dict[bytes, Graph]] = {}
+"""What they hold besides their names -> one of them."""
 
 
 class UnreadableGraphError(GraphRefusedError):
@@ -98,15 +98,16 @@ def read_known(raw: Mapping[str, Any], text: str) -> Graph:
         UnreadableGraphError: With every problem and where it is.
     """
     name = raw.get("graph_name")
-    if len(text) <= KEPT_CHARS and isinstance(name, str) and name:
-        with contextlib.suppress(UnreadableGraphError):  # to be told with its own name
-            return replace(_read_content(marshal.dumps({**raw, "graph_name": "graph"}, 2)), name=name)
-    return read_loaded(raw)
-
-
-@functools.lru_cache(KEPT_GRAPHS)
-def _read_content(content: bytes) -> Graph:
-    return read_loaded(marshal.loads(content))
+    if len(text) > KEPT_CHARS or not isinstance(name, str) or not name:
+        return read_loaded(raw)
+    content = marshal.dumps({**raw, "graph_name": ""}, 2)
+    known = _read.get(content)
+    if known is not None:
+        return replace(known, name=name)
+    if len(_read) == KEPT_GRAPHS:
+        _read.clear()
+    _read[content] = graph = read_loaded(raw)
+    return graph
 
 
 def read_descriptor(source: str | Mapping[str, Any]) -> ActionSpec:
