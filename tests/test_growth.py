@@ -20,7 +20,7 @@ from parley.messages.chat import ChatAction, ChatFeedback, ChatInput
 from parley.messages.status import GraphEvent
 from tests.agents.crew import ENGINE, KIM, crew, look
 
-MESSAGES = 10_000
+MESSAGES = 6 * 2 * KEPT  # of each of five kinds more than may be kept
 DOUBLES = ("Observer", "Wire", "ScriptedLanguage", "Body")
 
 

@@ -1,5 +1,5 @@
 from dataclasses import dataclass
-from parley.umrf.action import action
+from parley.api import action
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,7 @@ def check(file: WorldArgument) -> None:
     """Read a world file and say what is in it, or what is wrong with it."""
     world = WorldFile.load(file)
     things, robots = len(world.things), ", ".join(robot.name for robot in world.robots)
-    typer.echo(f"{world.name}: {things} things, robots: {robots}")
+    typer.echo(f"{world.name}: {things} thing{'s' * (things != 1)}, robots: {robots}")
 
 
 @app.command("map")
