@@ -48,6 +48,12 @@ def test_list_of_commands_and_their_completion_load_none_of_them() -> None:
     assert not (modules | others) & {"numpy", "structlog", "yaml"}
 
 
+def test_a_demonstration_loads_solvers_and_the_prompt_only_where_they_are_asked_for() -> None:
+    said, modules = loaded("demo", "--help")
+    assert "parley demo" in said
+    assert not modules & {"scipy.optimize", "prompt_toolkit", "prompt_toolkit.application"}
+
+
 @pytest.mark.parametrize(("words", "code", "said"), [
     ([], 2, ""),
     (["--version"], 0, ""),

@@ -15,7 +15,9 @@ import parley
 SOURCE = Path(parley.__file__).parent
 
 LAYERS: tuple[frozenset[str], ...] = (
-    frozenset({"errors", "extras", "logs", "clock", "messages", "config", "files", "latest", "sentences"}),
+    frozenset(
+        {"errors", "extras", "logs", "clock", "messages", "config", "files", "latest", "opening", "sentences"}
+    ),
     frozenset({"transport", "umrf", "memory", "world"}),
     frozenset({"sim"}),
     frozenset({"gate", "language", "robots", "engine", "actions", "team"}),

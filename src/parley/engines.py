@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from contextlib import AsyncExitStack
 from dataclasses import dataclass
 from functools import partial
-from typing import Final, Literal, Self
+from typing import Final, Literal
 
 from parley.actions.context import ActionContext
 from parley.agents.display.camera_feed import CameraFeed
@@ -31,6 +31,7 @@ from parley.language.base import Language
 from parley.messages import ros, topics
 from parley.messages.robot import RobotSite
 from parley.messages.wire import to_string
+from parley.opening import OpenedTogether
 from parley.robots.base import Robot
 from parley.robots.fleet import Fleet
 from parley.robots.run_robot import RunRobot
@@ -94,7 +95,7 @@ class WorldView:
         self.engines.tell_sites()
 
 
-class Engines:
+class Engines(OpenedTogether):
     """The engines of a fleet. Use as ``async with``, while the transport and the stop line are open.
 
     Args:
@@ -120,6 +121,7 @@ class Engines:
         actions: Sequence[ActionSpec],
         only: Sequence[str] = (),
     ) -> None:
+        super().__init__()
         self._transport, self._config, self._fleet = transport, config, fleet
         self.objects, self._language, self._line = objects, language, line
         installed = installed_actions()
@@ -141,16 +143,6 @@ class Engines:
         """How many in other processes listen to heartbeats."""
         self._greeting: asyncio.TimerHandle | None = None
         self._notifier = Notifier(transport)
-        self._stack = AsyncExitStack()
-
-    async def __aenter__(self) -> Self:
-        async with AsyncExitStack() as stack:
-            await self._open(stack)
-            self._stack = stack.pop_all()
-        return self
-
-    async def __aexit__(self, *exc: object) -> None:
-        await self._stack.aclose()
 
     @property
     def known(self) -> ObjectMap:

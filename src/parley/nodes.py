@@ -8,7 +8,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Sequence
 from contextlib import AsyncExitStack
-from typing import Final, Literal, Self, TypeVar
+from typing import Final, Literal, TypeVar
 
 from parley.agents.audit_log import AuditLog
 from parley.agents.base import Node
@@ -46,6 +46,7 @@ from parley.messages.chat import ActionCall
 from parley.messages.incident import Incident
 from parley.messages.principal import Principal
 from parley.messages.status import ActionInfo
+from parley.opening import OpenedTogether
 from parley.team.outlook import Outlook, Task, survey
 from parley.transport.base import Transport
 from parley.world.geometry import Pose2D
@@ -58,7 +59,7 @@ N = TypeVar("N", bound=Node)
 MET_WITHIN_S: Final = 30.0
 
 
-class Nodes:
+class Nodes(OpenedTogether):
     """The nodes. Use as ``async with``, while the transport and the language engine are open.
 
     Args:
@@ -78,6 +79,7 @@ class Nodes:
         clock: Clock,
         robots: Sequence[str] = (),
     ) -> None:
+        super().__init__()
         self._transport, self._config, self._clock = transport, config, clock
         self._language, self._robots = language, tuple(robots)
         self.rules = RuleBook(clock)
@@ -87,16 +89,6 @@ class Nodes:
         self._notices = Notices(transport)
         self._planner: UmrfPlanner | None = None
         self._incidents: list[Incident] = []
-        self._stack = AsyncExitStack()
-
-    async def __aenter__(self) -> Self:
-        async with AsyncExitStack() as stack:
-            await self._open(stack)
-            self._stack = stack.pop_all()
-        return self
-
-    async def __aexit__(self, *exc: object) -> None:
-        await self._stack.aclose()
 
     def tell(self, text: str, kind: Literal["info", "error"] = "info") -> None:
         """Say something to every operator, on behalf of no robot in particular, as soon as one is there."""

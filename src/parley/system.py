@@ -5,8 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractAsyncContextManager, AsyncExitStack
-from types import TracebackType
-from typing import TYPE_CHECKING, Final, Literal, Self
+from typing import TYPE_CHECKING, Final, Literal
 
 from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.agents.planner.check import plan_problems
@@ -28,6 +27,7 @@ from parley.messages.status import Rejection, RejectionProblem
 from parley.messages.wire import to_string
 from parley.network import transport_of
 from parley.nodes import Nodes
+from parley.opening import OpenedTogether
 from parley.robots.base import Robot
 from parley.robots.fleet import Fleet, OwnFleet
 from parley.robots.own import RobotBase
@@ -52,7 +52,7 @@ Part = Literal["all", "robots", "agents"]
 """Of a system: all in one process; the robots with their engines; the nodes that understand and plan."""
 
 
-class System:
+class System(OpenedTogether):
     """Robots, simulated or own, and everything that makes them understand people; or one half of that.
 
     Use as ``async with``; what was opened is closed in reverse order, whatever happens.
@@ -84,6 +84,7 @@ class System:
         part: Part = "all",
         only: Sequence[str] = (),
     ) -> None:
+        super().__init__()
         self.config, self._part = config, part
         self.transport: Transport = transport or transport_of(config, node=f"parley_{part}")
         self.usage = Usage()
@@ -105,18 +106,6 @@ class System:
         """Stops the robots, from any thread; there once the system is open."""
         self._engines: Engines | None = None
         self._nodes: Nodes | None = None
-        self._stack = AsyncExitStack()
-
-    async def __aenter__(self) -> Self:
-        async with AsyncExitStack() as stack:
-            await self._open(stack)
-            self._stack = stack.pop_all()
-        return self
-
-    async def __aexit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        await self._stack.aclose()
 
     # -- what is in it, once it is open ----------------------------------------------------------------------
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AsyncExitStack, nullcontext
-from types import TracebackType
-from typing import Any, Self, TypeVar
+from typing import Any, TypeVar
 
 import structlog
 from pydantic import BaseModel
@@ -40,6 +39,7 @@ from parley.messages.status import (
 )
 from parley.messages.topics import Topic
 from parley.messages.wire import decode, to_string, to_string_unchecked
+from parley.opening import OpenedTogether
 from parley.robots.base import Robot
 from parley.transport.base import Publisher, Subscription, Transport
 from parley.umrf.action import RunHandle
@@ -80,7 +80,7 @@ TOLD_AGAIN = 3
 """So many of the newest graphs are told again to whoever comes: how they stand may not have reached them."""
 
 
-class ActionEngine:
+class ActionEngine(OpenedTogether):
     """Carries out graphs for one actor; use with ``async with``.
 
     Args:
@@ -120,6 +120,7 @@ class ActionEngine:
         line: StopLine | None = None,
         rules: RuleBook | None = None,
     ) -> None:
+        super().__init__()
         self.actor = actor
         catalogue = catalogue if robot is None else catalogue.for_robot(robot.capabilities)
         self._transport, self._catalogue, self._clock = transport, catalogue, clock
@@ -131,7 +132,6 @@ class ActionEngine:
         self._make_context = make_context
         self._names = {actor, *wake_words}
         self._inbox = Inbox()
-        self._stack = AsyncExitStack()
         self._publishers: dict[str, Publisher[Any]] = {}
         self.runs = GraphRuns(
             actor,
@@ -165,17 +165,6 @@ class ActionEngine:
             complain=lambda problem: self._reject(topics.STOP.name, "", [problem]),
             changed=self._stop_changed,
         )
-
-    async def __aenter__(self) -> Self:
-        async with AsyncExitStack() as stack:  # closes what was opened if a later step fails
-            await self._open(stack)
-            self._stack = stack.pop_all()
-        return self
-
-    async def __aexit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        await self._stack.aclose()
 
     async def _open(self, stack: AsyncExitStack) -> None:
         """Open publishers, then what publishes, then what listens; closed in the opposite order."""
