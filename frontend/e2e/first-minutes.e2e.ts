@@ -1,30 +1,69 @@
-/** What the page does for somebody who never used it. */
+/** What the page does for somebody who never used it, and for somebody who looks away. */
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
-import { hasBrowser, say, sizes, startStage, type Stage } from './stage';
+import { hasBrowser, PATIENCE_MS, robotNamed, sizes, startStage, untilItMoved, type Stage } from './stage';
 
 describe.skipIf(!hasBrowser)('somebody new', () => {
   let stage: Stage;
 
   beforeAll(async () => {
-    stage = await startStage();
+    stage = await startStage(['--speed', '4']);
   });
 
   afterAll(async () => {
     await stage.close();
   });
 
-  it('is shown the story by the page, which writes it; the answers are left to them', async () => {
+  it('gets a robot moving with one tap, and the whole story with two more: the answers', async () => {
     const page = await stage.open(sizes.phone);
+    const from = await robotNamed(stage);
     await page.getByRole('button', { name: 'Show me' }).tap();
-    await page.getByText('I will remember that there is a water bottle').waitFor();
-    await page.getByText('John is thirsty, get him water.', { exact: true }).waitFor();
+    await untilItMoved(stage, from);
     await page.getByText(/^Showing/).waitFor({ state: 'detached' });
-    const box = page.getByRole('textbox', { name: 'Write to David' });
-    expect(await box.inputValue()).toBe('');
-    await page.getByRole('button', { name: 'What are you doing?' }).tap(); // it fits while a robot works
-    await page.locator('li[data-mine="true"]').last().getByText('What are you doing?').waitFor();
-    await say(page, 'cancel everything');
+    expect(await page.getByRole('textbox', { name: 'Write to David' }).inputValue()).toBe('');
+    await page.getByRole('button', { name: 'What are you doing?' }).waitFor(); // it fits while a robot works
+
+    const ask = page.getByRole('region', { name: 'David asks' });
+    const answer = ask.getByRole('button', { name: 'It is on you' });
+    await answer.waitFor();
+    const shown = async () => ((await ask.locator('p').boundingBox())?.height ?? 0) > 10;
+    await expect.poll(shown, { timeout: PATIENCE_MS }).toBe(false); // it stands in its bubble, right above
+    await page.getByRole('region', { name: 'Conversation' }).evaluate((talk) => talk.scrollTo(0, 0));
+    await expect.poll(shown, { timeout: PATIENCE_MS }).toBe(true);
+    await answer.tap();
+    await ask.getByRole('button', { name: 'small sofa' }).tap();
+    await page.getByRole('img', { name: 'What David saw' }).scrollIntoViewIfNeeded(); // with "I can see the water bottle"
+    await page.getByText(/^I have finished: .*Go to “small sofa”\.$/).waitFor();
     await page.getByRole('group', { name: 'What you may want to say' }).getByRole('button', { name: 'Go to the dining table.' }).waitFor();
   });
+
+  it('is called on a device whose page is closed, not on one whose page is looked at', async () => {
+    const context = await stage.browser.newContext({ viewport: sizes.phone, permissions: ['notifications'] });
+    const page = await context.newPage();
+    await page.goto(`${stage.system.address}#/settings`);
+    await page.evaluate(() => navigator.serviceWorker.ready.then(() => true));
+    const worker = context.serviceWorkers()[0];
+    const calls = await context.newCDPSession(page);
+    const registered = new Promise<string>((settle) => {
+      calls.on('ServiceWorker.workerRegistrationUpdated', ({ registrations: [one] }) => one && settle(one.registrationId));
+    });
+    await calls.send('ServiceWorker.enable');
+    const registrationId = await registered;
+    const origin = new URL(stage.system.address).origin;
+    const call = (title: string) =>
+      calls.send('ServiceWorker.deliverPushMessage', { origin, registrationId, data: JSON.stringify({ title, body: 'Which one?', tag: title }) });
+    const notes = () => worker?.evaluate(async () => (await (self as unknown as ServiceWorkerGlobal).registration.getNotifications()).map(({ title, body }) => `${title}: ${body}`));
+    await call('Ada');
+    await page.getByRole('button', { name: 'Call this device' }).click();
+    await page.getByText(/^The browser did not allow it, or cannot reach the service/).waitFor(); // there is none here
+    await page.goto('about:blank');
+    await call('David');
+    await expect.poll(notes, { timeout: PATIENCE_MS }).toEqual(['David: Which one?']);
+    await context.close();
+  });
 });
+
+/** What is used of it; the types of workers do not go together with those of Node.js. */
+interface ServiceWorkerGlobal {
+  registration: { getNotifications: () => Promise<{ title: string; body: string }[]> };
+}

@@ -38,6 +38,8 @@ describe.skipIf(!hasBrowser)('an operator in the nursing home', () => {
     await page.getByRole('region', { name: 'Pictures' }).getByRole('img').first().waitFor();
     await page.getByRole('group', { name: 'Possible answers' }).getByRole('button', { name: 'It is on you' }).click();
 
+    await page.getByText(/, step 4 of 4$/).waitFor(); // that the search failed is told in the step it is made for
+    expect(await cards.allInnerTexts()).toEqual([expect.stringMatching(/^4. Go to “sofa”[^]*Several places fit/)]);
     await page.getByRole('group', { name: 'Possible answers' }).getByRole('button', { name: 'small sofa' }).click();
     await expect.poll(() => cards.count(), { timeout: 60_000 }).toBeGreaterThan(0);
     await page.getByText('Ended', { exact: true }).waitFor();

@@ -19,12 +19,14 @@ interface Props {
   isStop: boolean;
   /** Whether its answers can be tapped. */
   offers: boolean;
+  /** Whether the robot waits for an answer to it. */
+  asks: boolean;
   onChoose: (entry: ChatEntry, choice: string) => void;
   onEdit: (text: string) => void;
 }
 
 /** One thing said. */
-export const Entry = memo(function Entry({ entry, showName, isStop, offers, onChoose, onEdit }: Props) {
+export const Entry = memo(function Entry({ entry, showName, isStop, offers, asks, onChoose, onEdit }: Props) {
   const debug = usePrefs((prefs) => prefs.debug);
   const mine = entry.who === 'operator';
   return (
@@ -34,11 +36,11 @@ export const Entry = memo(function Entry({ entry, showName, isStop, offers, onCh
       data-entry={entry.id}
       data-mine={mine}
       data-type={entry.type}
-      data-question={entry.question || undefined}
+      data-question={questionOf(entry, asks)}
       data-draft={entry.draft || undefined}
       aria-live={entry.draft ? 'off' : undefined}
     >
-      {(showName || debug || hasMarks(entry)) && <Head entry={entry} debug={debug} />}
+      {(showName || debug || asks || hasMarks(entry)) && <Head entry={entry} asks={asks} debug={debug} />}
       <div className={css.said}>
         <Said entry={entry} />
       </div>
@@ -48,6 +50,9 @@ export const Entry = memo(function Entry({ entry, showName, isStop, offers, onCh
     </li>
   );
 });
+
+/** How far a question is; what is asked in a reply is one as well. */
+const questionOf = (entry: ChatEntry, asks: boolean) => (asks ? 'open' : entry.question || undefined);
 
 /** Whether something stands in its head besides from whom it is. */
 const hasMarks = (entry: ChatEntry) => entry.question !== '' || entry.engine !== '';
@@ -80,7 +85,7 @@ function Said({ entry }: { entry: ChatEntry }) {
   );
 }
 
-function Head({ entry, debug }: { entry: ChatEntry; debug: boolean }) {
+function Head({ entry, asks, debug }: { entry: ChatEntry; asks: boolean; debug: boolean }) {
   const { t, i18n } = useTranslation('chat');
   const names = nameList(entry.targets, i18n.language);
   return (
@@ -93,7 +98,7 @@ function Head({ entry, debug }: { entry: ChatEntry; debug: boolean }) {
       ) : (
         <>
           <strong>{names || t('everyone')}</strong>
-          {entry.question === 'open' && <span className={css.badge}>{t('asks')}</span>}
+          {asks && <span className={css.badge}>{t('asks')}</span>}
           {entry.question === 'answered' && <span>{t('answered')}</span>}
           {entry.question === 'closed' && <span>{t('closed')}</span>}
           {entry.engine && <span data-engine>{entry.engine}</span>}

@@ -86,6 +86,7 @@ export function History({ entries, asked, onChoose, onEdit, empty }: Props) {
                 key={entry.id}
                 entry={entry}
                 offers={offers.has(entry.id)}
+                asks={asked.includes(entry)}
                 isStop={entry.id === stop}
                 showName={newDay || !sameSpeaker(before, entry)}
                 onChoose={onChoose}

@@ -1,7 +1,7 @@
 import { act, render, screen } from '@testing-library/react';
 import { expect, it, vi } from 'vitest';
 
-import { mapView, plan, robot, snapshot, step } from '@/live/samples';
+import { entry, mapView, plan, robot, snapshot, step } from '@/live/samples';
 import { useLive } from '@/live/store';
 
 import { RobotLine } from './robot-line';
@@ -27,6 +27,9 @@ it('says where a robot is and for how long it works on what it really does', () 
   expect(line.textContent).toMatch(/^AdaWaiting for you/);
   act(() => useLive.getState().takeChanges([{ kind: 'robot', seq: 3, robot: { ...working, state: 'stopped' } }]));
   expect(line.querySelector('time')).toBeNull();
+  const which = entry({ id: 'w', seq: 4, type: 'response', message: 'Which box?', choices: ['red', 'blue'], targets: ['Ada'] });
+  act(() => useLive.getState().takeChanges([{ kind: 'robot', seq: 4, robot: { ...working, state: 'idle' } }, { kind: 'chat', seq: 5, entry: which }]));
+  expect(line.textContent).toMatch(/^AdaWaiting for you/);
   act(() => useLive.getState().setConnection('lost', 1));
   expect(line.textContent).toBe('AdaNot known');
   vi.useRealTimers();

@@ -6,6 +6,7 @@ import { linesOf } from '@/live/lines';
 import { onServerClock } from '@/live/server-time';
 import { useWorld } from '@/live/store';
 import type { PlanView, StepView } from '@/live/types';
+import { useAsked } from '@/state/asked';
 import { useMood } from '@/state/mood';
 import { Dot } from '@/ui/dot';
 import { useNow } from '@/ui/use-now';
@@ -28,7 +29,9 @@ export function RobotLine({ name, named }: { name: string; named: boolean }) {
     () => Object.values(plans).flatMap((plan) => (plan.robot === name ? (taskOf(plan) ?? []) : []))[0],
     [plans, name],
   );
-  const shown = mood === 'running' && task?.step.state === 'waiting' ? 'waiting' : mood;
+  const asks = useAsked().some((entry) => entry.targets.includes(name));
+  const waits = mood === 'running' ? task?.step.state === 'waiting' : mood === 'idle' && asks;
+  const shown = waits ? 'waiting' : mood;
   const here = mood !== 'away' && mood !== 'unknown'; // else the rest is old
   return (
     <div className={css.line} role="group" aria-label={t('fares', { name })}>

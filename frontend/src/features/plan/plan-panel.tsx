@@ -112,12 +112,7 @@ function PlanOf({ plan }: { plan: PlanView }) {
           </Empty>
         )}
       </div>
-      {plan.kind === 'plan' && (
-        <footer className={css.foot}>
-          <PolicyChoice robot={plan.robot} />
-          <UnattendedChoice />
-        </footer>
-      )}
+      {!editing && <Foot plan={plan} />}
     </>
   );
 }
@@ -130,6 +125,17 @@ function Together({ robot }: { robot: string }) {
   return (going.length > 0 ? going : own.slice(-1)).map((mission) => (
     <MissionCard key={mission.id} mission={mission} isFolded={!goesOn(mission)} />
   ));
+}
+
+/** What holds for tasks to come. */
+function Foot({ plan }: { plan: PlanView }) {
+  if (plan.kind !== 'plan') return null;
+  return (
+    <footer className={css.foot}>
+      <PolicyChoice robot={plan.robot} />
+      <UnattendedChoice />
+    </footer>
+  );
 }
 
 /** The steps as lines, which of them is being done, and how many are over. */
