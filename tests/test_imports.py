@@ -32,6 +32,7 @@ LAYERS: tuple[frozenset[str], ...] = (
             "deployment",
             "findings",
             "network_check",
+            "ros_check",
             "nodes",
             "api",
             "demos",
@@ -59,7 +60,7 @@ INSIDE: dict[str, tuple[str, ...]] = {
     # Words and prompts know no engine; what is built in and its dialogue know each other.
     "language": ("lexicon", "prompts", "dialogue builtin", "llm"),
     # One backend each; what all share knows none.
-    "transport": ("zenoh", "rosbridge"),
+    "transport": ("zenoh", "rosbridge", "ros2"),
     "umrf": ("bt",),
     "web": ("people", "routes"),
     "api": (),
@@ -67,11 +68,15 @@ INSIDE: dict[str, tuple[str, ...]] = {
 """Rooms inside rooms by height: one knows those before it, and those that stand beside it. One that is not
 named is known by none of them."""
 
-CLOSED = {"language": {"builtin", "llm", "prompts"}, "transport": {"zenoh", "rosbridge"}, "umrf": {"bt"}}
+CLOSED = {
+    "language": {"builtin", "llm", "prompts"},
+    "transport": {"zenoh", "rosbridge", "ros2"},
+    "umrf": {"bt"},
+}
 """What the single files of a room, which all others in it use, do not know."""
 
 ONLY_IN = {
-    "rclpy": {"transport/ros2.py"},
+    "rclpy": {"transport/ros2/"},
     "mujoco": {"sim/"},
     "prompt_toolkit": {"terminal/"},
     "typer": {"cli.py", "cli/"},

@@ -208,6 +208,19 @@ class TlsSettings(BaseModel):
     """Its private key."""
 
 
+class Ros2Settings(BaseModel):
+    """Into which ROS 2 a process goes: the one that is sourced where it is started, as its variables say."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    namespace: str = ""
+    """Of relative names: `/ward`."""
+    arguments: tuple[str, ...] = ()
+    """As on the command line of a node: `[--ros-args, -r, "chat_interface_input:=orders"]`."""
+    domain: int | None = Field(default=None, ge=0, le=232)
+    """None: as ROS_DOMAIN_ID says."""
+
+
 class NetworkSettings(BaseModel):
     """Into which network of Zenoh a process goes. As it stands: the processes of this machine."""
 
@@ -229,6 +242,15 @@ class NetworkSettings(BaseModel):
     """Encryption; None: none. With it all addresses begin with `tls/`."""
     rosbridge: str | None = Field(default=None, pattern=r"^wss?://")
     """The ROS behind this rosbridge instead: `ws://robot:9090`; besides it only `silence_s` counts."""
+    ros2: Ros2Settings | None = None
+    """The ROS 2 of this machine instead; besides it nothing counts."""
+
+    @model_validator(mode="after")
+    def _one_way(self) -> Self:
+        """Whoever names two would not know which is taken."""
+        if self.ros2 is not None and self.rosbridge is not None:
+            raise ValueError("name ros2 or rosbridge, not both")
+        return self
 
     @model_validator(mode="after")
     def _all_encrypted_or_none(self) -> Self:

@@ -28,6 +28,7 @@ from parley.extras import model_extra, needs
 from parley.findings import Finding
 from parley.memory.embedder import configured_embedder
 from parley.network_check import examine_network
+from parley.ros_check import examine_ros
 
 __all__ = ["Finding", "Subject", "examine"]
 
@@ -67,10 +68,11 @@ def examine(subject: Subject) -> Iterable[Finding]:
     """Check everything, one finding after the other."""
     checks: tuple[Callable[[Subject], Finding], ...] = (
         _python, _packages, _simulator, _server, _page, _browser, _node, _port, _folder, _space, _memory,
-        _language, _embeddings, _ros, _zenoh,
+        _language, _embeddings, _zenoh,
     )  # fmt: skip
     for check in checks:
         yield check(subject)
+    yield from examine_ros()
     yield from examine_network(subject.network)
 
 
@@ -268,12 +270,6 @@ def _embeddings(subject: Subject) -> Finding:
             "Start the server or check the network. Until then memories are found by their words.",
         )  # fmt: skip
     return Finding("embeddings", "ok", f"{settings.model} at {place}")
-
-
-def _ros(_: Subject) -> Finding:
-    if importlib.util.find_spec("rclpy") is not None:
-        return Finding("ROS 2", "ok", os.environ.get("ROS_DISTRO", "found"))
-    return Finding("ROS 2", "unused", "Not here; only robots that speak it need it.")
 
 
 def _zenoh(_: Subject) -> Finding:

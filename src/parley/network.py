@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from parley.config import SystemConfig
 from parley.extras import needs
+from parley.ros_check import need_ros
 from parley.transport.base import Transport
 from parley.transport.local import LocalTransport
 
@@ -20,6 +21,7 @@ def transport_of(config: SystemConfig, *, node: str = "parley", release: str = "
 
     Raises:
         MissingExtraError: What the network needs is not installed.
+        UnavailableError: ROS is not sourced, or not for this Python.
     """
     if config.network is None:
         return LocalTransport()
@@ -27,6 +29,13 @@ def transport_of(config: SystemConfig, *, node: str = "parley", release: str = "
         with needs("rosbridge"):
             from parley.transport.rosbridge import RosbridgeTransport
         return RosbridgeTransport(config.network.rosbridge, silence_s=config.network.silence_s)
+    if (ros2 := config.network.ros2) is not None:
+        need_ros()
+        from parley.transport.ros2 import Ros2Transport
+
+        return Ros2Transport(
+            node=node, arguments=ros2.arguments, namespace=ros2.namespace, domain=ros2.domain
+        )
     with needs("zenoh"):
         from parley.transport.zenoh import ZenohTransport
         from parley.transport.zenoh.definitions import of_release

@@ -24,6 +24,10 @@ LISTENS_S: Final = 3.0
 APART_MS: Final = 1000
 """Clocks that differ by less do no harm."""
 CONNECTS_WITHIN_S: Final = 2.0
+_SAME: Final = "Look at domain, interface and tls: all parts need the same."
+_SAME_ROS: Final = (
+    "Compare ROS_DOMAIN_ID, RMW_IMPLEMENTATION and ROS_AUTOMATIC_DISCOVERY_RANGE: all parts need the same."
+)
 _MEND: Final = "Start it there, or mend the address, or let it through the firewall."
 
 
@@ -39,7 +43,8 @@ def examine_network(network: NetworkSettings | None) -> Iterable[Finding]:
     except MissingExtraError as missing:
         yield Finding("network", "missing", str(missing))
     except ParleyError as error:
-        yield Finding("network", "wrong", str(error), "Start the router first, or mend `connect`.")
+        mend = "Start the router first, or mend `connect`." if network.ros2 is None else "See ROS 2 above."
+        yield Finding("network", "wrong", str(error), mend)
 
 
 def _address(address: str) -> Finding:
@@ -70,9 +75,7 @@ async def _listen(network: NetworkSettings) -> list[Finding]:
     pages = sum(end.name == topics.ATTENDANCE.name and end.role == "publisher" for end in others)
     if not others:
         text = f"nobody was there in {LISTENS_S:g} s"
-        return [
-            Finding("network", "missing", text, "Look at domain, interface and tls: all parts need the same.")
-        ]
+        return [Finding("network", "missing", text, _SAME_ROS if network.ros2 else _SAME)]
     robots = ", ".join(sorted(apart_ms)) or "none"
     told = f"robots: {robots}; who plans: {'there' if plans else 'not there'}; pages: {pages}"
     found = [Finding("network", "ok" if plans and apart_ms else "missing", told)]

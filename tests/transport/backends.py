@@ -3,19 +3,26 @@
 from __future__ import annotations
 
 import asyncio
+import os
 import socket
 from collections.abc import AsyncIterator, Callable
 from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
+
+import pytest
 
 from parley.config import NetworkSettings
+from parley.ros_check import examine_ros
 from parley.transport.base import Server, Subscription, Transport
 from parley.transport.local import LocalTransport
 from parley.transport.rosbridge import RosbridgeServer, RosbridgeTransport
 from parley.transport.rosbridge.rosapi import NODES, NodesRequest
 from parley.transport.zenoh import ZenohTransport
+
+if TYPE_CHECKING:
+    from parley.transport.ros2 import Ros2Transport
 
 DEFINITIONS = (Path(__file__).parent / "definitions",)
 """Of types that only tests use."""
@@ -27,6 +34,8 @@ class Network:
 
     here: Transport
     there: Transport
+    says_why: bool = True
+    """Whether a caller hears that a server failed, and why; else it waits its time."""
 
 
 @asynccontextmanager
@@ -110,8 +119,55 @@ async def rosbridge() -> AsyncIterator[Network]:
         yield Network(cast(Transport, Bridged(here)), cast(Transport, Bridged(there)))
 
 
+class Matched:
+    """A transport whose ends are open when the other node of ROS has met them."""
+
+    def __init__(self, transport: Ros2Transport, other: Ros2Transport) -> None:
+        self._transport, self._other = transport, other
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._transport, name)
+
+    async def subscribe(self, *args: Any, **options: Any) -> Subscription:
+        name = self._transport.node.resolve_topic_name(args[0].name)
+        known = self._other.node.count_subscribers(name)
+        end = await self._transport.subscribe(*args, **options)
+        await until(lambda: self._other.node.count_subscribers(name) > known and self._other.meets_all())
+        return end
+
+    async def serve(self, *args: Any) -> Server:
+        end = await self._transport.serve(*args)
+        await until(lambda: any(one.name == end.endpoint.name for one in self._other.endpoints()))
+        return end
+
+
+@asynccontextmanager
+async def ros2() -> AsyncIterator[Network]:
+    """Two nodes, each as of a process of its own, in whatever RMW is sourced; nothing leaves this machine."""
+    from parley.transport.ros2 import Ros2Transport
+
+    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    domain = 1 + os.getpid() % 100
+    async with (
+        Ros2Transport(node="contract_here", domain=domain, look_s=0.02) as here,
+        Ros2Transport(node="contract_there", domain=domain, look_s=0.02) as there,
+    ):
+        await until(lambda: here.endpoints() and there.endpoints())
+        both = Matched(here, there), Matched(there, here)
+        yield Network(cast(Transport, both[0]), cast(Transport, both[1]), says_why=False)
+
+
+def each() -> list[Any]:
+    """All backends, as parameters of tests; that of ROS only where one is sourced."""
+    (told,) = list(examine_ros())[:1]
+    sourced = pytest.mark.skipif(told.state != "ok", reason=f"ROS 2: {told.text}")
+    marks = {"ros2": (pytest.mark.ros, sourced)}
+    return [pytest.param(name, marks=marks.get(name, ())) for name in sorted(BACKENDS)]
+
+
 BACKENDS: dict[str, Callable[[], AbstractAsyncContextManager[Network]]] = {
     "local": local,
+    "ros2": ros2,
     "rosbridge": rosbridge,
     "zenoh": zenoh,
 }

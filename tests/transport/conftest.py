@@ -6,10 +6,10 @@ from collections.abc import AsyncIterator
 
 import pytest
 
-from tests.transport.backends import BACKENDS, Network
+from tests.transport.backends import BACKENDS, Network, each
 
 
-@pytest.fixture(params=sorted(BACKENDS))
+@pytest.fixture(params=each())
 async def network(request: pytest.FixtureRequest) -> AsyncIterator[Network]:
     async with BACKENDS[request.param]() as parties:
         yield parties

@@ -70,6 +70,7 @@ class Node:
 
     async def __aenter__(self) -> Self:
         self._closed = False
+        self.transport = self.transport.named(self.name)
         self.opened.push_async_callback(self._close_ends)
         try:
             await self.open()

@@ -215,6 +215,10 @@ class Transport(Protocol):
         """
         ...
 
+    def named(self, name: str) -> Transport:
+        """The same, for a part that others may know by a name of its own; open for as long as this is."""
+        ...
+
     def endpoints(self) -> tuple[Endpoint, ...]:
         """Who is there now."""
         ...

@@ -167,6 +167,10 @@ class LocalTransport:
         await client.open()
         return client
 
+    def named(self, name: str) -> Self:
+        """See `Transport.named`."""
+        return self
+
     def endpoints(self) -> tuple[Endpoint, ...]:
         """See `Transport.endpoints`."""
         found = [Endpoint(absolute(p._topic.name), p._topic.ros_type, "publisher") for p in self._publishers]

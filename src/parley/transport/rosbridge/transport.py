@@ -206,6 +206,10 @@ class RosbridgeTransport:
         await client.open()
         return client
 
+    def named(self, name: str) -> Self:
+        """See `Transport.named`."""
+        return self
+
     def endpoints(self) -> tuple[Endpoint, ...]:
         """See `Transport.endpoints`: of others as often as the bridge is asked, if its `rosapi` runs."""
         return self._graph.endpoints()

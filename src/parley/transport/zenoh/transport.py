@@ -239,6 +239,10 @@ class ZenohTransport:
         await client.open()
         return client
 
+    def named(self, name: str) -> Self:
+        """See `Transport.named`."""
+        return self
+
     def endpoints(self) -> tuple[Endpoint, ...]:
         """See `Transport.endpoints`."""
         return self._graph.endpoints()
