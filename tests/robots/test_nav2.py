@@ -7,7 +7,7 @@ import subprocess
 import sys
 from collections.abc import AsyncIterator, Callable
 from contextlib import AsyncExitStack, asynccontextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Self
 
@@ -20,7 +20,7 @@ from parley.clock import SimClock, WallClock
 from parley.config import NetworkSettings
 from parley.errors import ActionFailure, FailureCode, UnavailableError
 from parley.messages.ros_robot import Release
-from parley.robots.base import NavigationControl
+from parley.robots.base import NavigationControl, Velocity
 from parley.robots.check import blocked
 from parley.robots.link import Link
 from parley.robots.nav2 import Nav2Robot, Nav2Setup
@@ -47,6 +47,8 @@ QUICK = 5.0
 class Peer:
     """The simulated robot, with what it needs."""
 
+    topics = TOPICS
+
     def __init__(self, release: Release, speed: float) -> None:
         self._release, self._speed, self._stack = release, speed, AsyncExitStack()
         self.nav2: SimulatedNav2
@@ -54,7 +56,7 @@ class Peer:
     async def begin(self, transport: Transport) -> None:
         simulator = Simulator(two_rooms(), clock=SimClock(), speed=self._speed)
         await self._stack.enter_async_context(simulator)
-        nav2 = SimulatedNav2(simulator, "A", transport, release=self._release, topics=TOPICS)
+        nav2 = SimulatedNav2(simulator, "A", transport, release=self._release, topics=self.topics)
         self.nav2 = await self._stack.enter_async_context(nav2)
 
     async def end(self) -> None:
@@ -248,6 +250,24 @@ async def test_when_the_network_dies_it_stands_within_a_second_and_does_not_go_o
         await until(lambda: not on.nav2.robot.stopped)
         assert on.nav2.robot.planned_path() == ()
     assert failed.value.code is FailureCode.HARDWARE
+
+
+@pytest.mark.parametrize("kind", ["local", "zenoh"])
+async def test_a_base_that_takes_velocities_with_a_stamp_gets_them(
+    kind: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    takes = replace(TOPICS, stamped=True)
+    monkeypatch.setattr(Peer, "topics", takes)
+    async with stage(kind) as on:  # ours is not told
+        await until(lambda: not on.nav2.robot.stopped)
+
+        def moves() -> bool:
+            on.robot.drive(Velocity(0.2))
+            return on.nav2.robot.velocity().linear_mps > 0.02
+
+        await until(moves)
+        on.robot.halt()
+        await until(lambda: on.nav2.robot.velocity().linear_mps < 0.02)
 
 
 async def test_while_the_program_hangs_it_stands() -> None:

@@ -70,13 +70,14 @@ class SimulatedNav2:
 
     async def __aenter__(self) -> Self:
         names, transport, stack = self._names, self._transport, AsyncExitStack()
+        takes = ros_robot.TwistStamped if names.stamped else ros_robot.Twist
         self._stack = await stack.__aenter__()
         self._out = {
             name: transport.publisher(names.topic(name, kind, qos)) for name, kind, qos in names.told()
         }
         self._out[names.map].publish(grid_of(self._map, names.map_frame, self._clock.unix_ms()))
         for topic, handler in (
-            (names.topic(names.cmd_vel, ros_robot.Twist), self._on_velocity),
+            (names.topic(names.cmd_vel, takes), self._on_velocity),
             (names.topic(names.hold, ros_robot.Bool), self._on_hold),
         ):
             heard = await transport.subscribe(topic, handler)
@@ -103,8 +104,9 @@ class SimulatedNav2:
 
     # -- the drive ---------------------------------------------------------------------------------------
 
-    def _on_velocity(self, told: ros_robot.Twist) -> None:
-        velocity = Velocity(told.linear.x, told.angular.z)
+    def _on_velocity(self, told: ros_robot.Twist | ros_robot.TwistStamped) -> None:
+        twist = told.twist if isinstance(told, ros_robot.TwistStamped) else told
+        velocity = Velocity(twist.linear.x, twist.angular.z)
         if velocity != Velocity():
             self.robot.drive(velocity)
         elif not self.robot.stopped:  # no command any more, so that it brakes, and not one to roll out

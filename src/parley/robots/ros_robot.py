@@ -21,15 +21,15 @@ from parley.errors import (
 )
 from parley.extras import needs
 from parley.messages.actions import GoalState
-from parley.messages.ros_robot import Bool, PoseStamped, Twist, Vector3
+from parley.messages.ros_robot import Bool, PoseStamped, Twist, TwistStamped, Vector3
 from parley.messages.status import Trouble
 from parley.robots.base import CameraImage, DriveLimits, LaserScan, NavigationControl, Velocity
 from parley.robots.link import Link
 from parley.robots.own import RobotBase
-from parley.robots.ros_senses import SILENT, RosTopics, Senses
-from parley.robots.ros_values import stamped
+from parley.robots.ros_senses import SILENT, RosTopics, Senses, velocities_taken
+from parley.robots.ros_values import header, stamped
 from parley.sentences import sentence
-from parley.transport.base import Outcome, SentGoal, Transport
+from parley.transport.base import Outcome, Publisher, SentGoal, Transport
 from parley.world.geometry import Pose2D
 
 if TYPE_CHECKING:
@@ -134,6 +134,7 @@ class RosRobot(RobotBase):
         self._transport: Transport | None = None
         self._keeping: asyncio.Task[None] | None = None
         self._beating: asyncio.Task[None] | None = None
+        self._cmd_vel: tuple[type[Any], Publisher[Any]] | None = None
         self._beat_s = 0.0
         self._paused = False
         self._sending: asyncio.Future[Any] | None = None
@@ -174,9 +175,22 @@ class RosRobot(RobotBase):
 
     def send(self, velocity: Velocity) -> None:
         """See `RobotBase.send`."""
-        twist = Twist(Vector3(velocity.linear_mps), Vector3(z=velocity.angular_radps))
         if self._link is not None and self._transport is not None:
-            self._link.post(lambda: self._cmd_vel.publish(twist))
+            self._link.post(lambda: self._drive_at(velocity))
+
+    def _drive_at(self, velocity: Velocity) -> None:
+        """On the link: hand a velocity to the base, of the type that it takes."""
+        if self._transport is None:
+            return
+        kind = velocities_taken(self._names, self._transport.endpoints())
+        if self._cmd_vel is None or self._cmd_vel[0] is not kind:
+            if self._cmd_vel is not None:
+                self._cmd_vel[1].close()
+            self._cmd_vel = kind, self._transport.publisher(self._names.topic(self._names.cmd_vel, kind))
+        twist = Twist(Vector3(velocity.linear_mps), Vector3(z=velocity.angular_radps))
+        stamped = kind is TwistStamped
+        top = header(self._names.base_frame, self._clock.unix_ms())
+        self._cmd_vel[1].publish(TwistStamped(top, twist) if stamped else twist)
 
     def halt(self) -> None:
         """See `Robot.halt`: besides, it is told to stand, and `go` calls its goal off."""
@@ -217,7 +231,6 @@ class RosRobot(RobotBase):
         transport = self._connect()
         await transport.__aenter__()
         names = self._names
-        self._cmd_vel = transport.publisher(names.topic(names.cmd_vel, Twist))
         self._hold = transport.publisher(names.topic(names.hold, Bool))
         self._transport = transport
         await self._senses.listen(transport)
@@ -233,7 +246,7 @@ class RosRobot(RobotBase):
             ) from error
 
     async def _end(self) -> None:
-        transport, self._transport = self._transport, None
+        transport, self._transport, self._cmd_vel = self._transport, None, None
         if self._keeping is not None:
             self._keeping.cancel()
             await asyncio.gather(self._keeping, return_exceptions=True)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import asyncio
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
@@ -19,13 +19,13 @@ from parley.messages.topics import QoS, Topic
 from parley.robots.base import CameraImage, LaserScan, Velocity
 from parley.robots.ros_values import Frames, detections_of, map_of, picture_of, planar, scan_of
 from parley.sentences import sentence
-from parley.transport.base import Subscription, Transport
+from parley.transport.base import Endpoint, Subscription, Transport, absolute
 from parley.world.geometry import Pose2D
 
 if TYPE_CHECKING:
     from parley.world.occupancy import OccupancyMap
 
-__all__ = ["SILENT", "RosTopics", "Senses"]
+__all__ = ["SILENT", "RosTopics", "Senses", "velocities_taken"]
 
 PICTURE_S: Final = 3.0
 PICTURES_KEPT: Final = 30
@@ -78,6 +78,8 @@ class RosTopics:
     emergency: str = ""
     """A std_msgs/Bool that is true while a button on the robot holds it."""
     cmd_vel: str = "cmd_vel"
+    stamped: bool | None = None
+    """Whether velocities are TwistStamped, as with many bases since Jazzy; None: as whoever listens there."""
     hold: str = "parley/hold"
     """Says ten times a second whether it must stand: a lock of twist_mux, so that silence holds it too."""
     map_frame: str = "map"
@@ -115,6 +117,16 @@ class RosTopics:
     def camera_type(self) -> type[Any]:
         """Of its pictures."""
         return ros.CompressedImage if self.camera.endswith("compressed") else ros_robot.Image
+
+
+def velocities_taken(topics: RosTopics, ends: Iterable[Endpoint]) -> type[Any]:
+    """Of which type velocities must be so that whoever drives the base takes them."""
+    stamped = topics.stamped
+    if stamped is None:
+        there = absolute(topics.name(topics.cmd_vel))
+        kinds = {end.ros_type for end in ends if end.role == "subscription" and end.name == there}
+        stamped = _TYPES[ros_robot.TwistStamped] in kinds and _TYPES[ros_robot.Twist] not in kinds
+    return ros_robot.TwistStamped if stamped else ros_robot.Twist
 
 
 class Senses:
