@@ -249,6 +249,19 @@ async def test_who_is_there_is_asked_again_and_again_of_ros_1_too() -> None:
         assert await here.call(ECHO, ChatRequest("x"), timeout_s=5.0) == ChatResponse("x")
 
 
+async def test_it_is_known_which_ends_are_of_others() -> None:
+    async with (
+        RosbridgeServer() as bridge,
+        RosbridgeTransport(bridge.address, look_s=0.02) as here,
+        RosbridgeTransport(bridge.address) as there,
+    ):
+        await there.subscribe(TALK, lambda _: None)
+        here.publisher(TALK)
+        await until(lambda: len([end for end in here.endpoints() if end.name == "/bridge/talk"]) == 2)
+        told = {end.role: end.elsewhere for end in here.endpoints() if end.name == "/bridge/talk"}
+        assert told == {"subscription": True, "publisher": False}
+
+
 async def test_ros_1_gets_its_own_names_of_types_and_has_no_actions() -> None:
     bridge = Scripted()
     async with serve(bridge.on_client, "127.0.0.1", 0) as server:

@@ -46,8 +46,8 @@ class Graph(EndpointGraph):
         """Whether the bridge tells who is there; without its `rosapi` it does not."""
 
     def ends(self) -> Iterable[Endpoint]:
-        """See `EndpointGraph.ends`."""
-        return self._seen.union(self._own)
+        """See `EndpointGraph.ends`; a bridge does not tell whether others have one that we have: it is ours."""
+        return frozenset(self._own).union(self._seen)
 
     def add_own(self, end: Endpoint) -> None:
         """An end of this process is open."""
@@ -104,7 +104,9 @@ class Graph(EndpointGraph):
             actions = (await ask(ACTION_SERVERS, ActionServersRequest())).action_servers
         except UnavailableError:  # ROS 1 has none
             actions = ()
-        ends.update(Endpoint(f"{name}/_action/{part}", "", "server") for name in actions for part in _PARTS)
+        ends.update(
+            Endpoint(f"{name}/_action/{part}", "", "server", True) for name in actions for part in _PARTS
+        )
         gone = self._service_types.keys() - {end.name for end in ends if end.role == "server"}
         for name in gone:
             del self._service_types[name]
@@ -117,7 +119,7 @@ class Graph(EndpointGraph):
 
 
 def _ends(names: Iterable[str], types: dict[str, str], role: str) -> set[Endpoint]:
-    return {Endpoint(name, types.get(name, ""), role) for name in names}
+    return {Endpoint(name, types.get(name, ""), role, True) for name in names}
 
 
 def _long(ros_type: str, kind: str) -> str:
