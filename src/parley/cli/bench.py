@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections import Counter
 from collections.abc import Callable, Sequence
 from typing import Annotated, Any
 
@@ -14,6 +15,7 @@ from parley.bench.engine import Figures, chain, fan_out, run_chain, run_graphs, 
 from parley.bench.language import measure_language
 from parley.bench.memory import VECTOR_LENGTH, measure_memory
 from parley.bench.story import measure_demo
+from parley.bench.team import Kind, measure_team
 from parley.bench.transport import measure_transport
 from parley.cli.on_loop import on_loop
 from parley.cli.output import emit_json, quiet_logs
@@ -227,6 +229,26 @@ def demo(
     else:
         for fact, value in facts.items():
             typer.echo(f"{fact}: {value}")
+
+
+@app.command("team")
+def team(
+    kind: Annotated[Kind | None, typer.Option(help="Only tasks of this kind.")] = None,
+    name: Annotated[str, typer.Option(help="Which demonstration.")] = "fleet",
+    json: JsonOption = False,
+) -> None:
+    """Tasks for several robots, carried out in simulation and judged by the state at the end."""
+    quiet_logs()
+    counted: dict[str, Counter[str]] = {}
+
+    async def measure() -> None:
+        async for task, verdict, amiss in measure_team(name, kind):
+            counted.setdefault(task.kind, Counter())[verdict] += 1
+            _show({"kind": task.kind, "task": task.name, "verdict": verdict, "amiss": amiss}, json)
+
+    on_loop(measure())
+    for case, verdicts in counted.items():
+        _show({"case": case, "tasks": verdicts.total(), **verdicts}, json)
 
 
 @app.command("web")

@@ -305,6 +305,13 @@ class _Work:
             return part.order, None
         words, proposal = await self._team.said_last(target, self._said)
         if not words:
+            others = [name for name in self._members if name != part.robot and self._team.left(name)]
+            if part.robot and len(others) == 1 and not self._team.left(part.robot):
+                take_over = f"Let {part.robot} take over from {others[0]}"
+                asked = sentence(
+                    "Do you mean what {robot} is at? Then say “{words}”.", robot=others[0], words=take_over
+                )
+                return "", Mission(text=asked, choices=(take_over,))
             busy = self._team.is_busy(target)
             text = sentence("I am at something already. Say “cancel everything” first, then say it in full.")
             return "", Mission(

@@ -22,7 +22,7 @@ from parley.sentences import Sentence, sentence, together
 __all__ = ["Relay"]
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class _Waiting:
     plan: TargetPlan
     order: ChatAction
@@ -73,6 +73,8 @@ class Relay:
     def look(self) -> None:
         """Begin what can begin by now, and ask about what will not come to it."""
         for one in tuple(self._waiting):
+            if one not in self._waiting:
+                continue  # what began before it in this turn has changed a plan, so it was looked at already
             states = {other: self._state(other) for other in one.order.after}
             who = ", ".join(dict.fromkeys(self._robot(other) for other in states))
             if "lost" in states.values():

@@ -169,8 +169,10 @@ class _Words:
             text,
         ):
             return _shared(found["order"])
-        if found := self._match(rf"{split} and (?P<order>.+)", text):
+        if found := self._match(rf"{split} (?:and|{that}(?: up)?(?: {between})?:) ?(?P<order>.+)", text):
             return _shared(found["order"])
+        if found := self._match(rf"{split} (?P<what>(?:the|these|those|all) \w+(?: \w+)?)", text):
+            return TeamWish("share", (Part("all", found["what"]),), bare=True)
         if found := self._match(r"(?P<order>.+?),? (?:one each|one apiece|one for each of you)", text):
             return TeamWish("share", (Part("all", found["order"]),), one_each=True)
         found = self._match(r"(?P<verb>\w+(?: \w+)?) one (?:of the )?(?P<what>\w+(?: \w+){0,2}) each", text)
@@ -184,9 +186,18 @@ class _Words:
         """Who is to do what, one part after the other as it was said."""
         if (taken := self._taken_over(text)) is not None:
             return taken
-        if found := self._match(rf"{self.of('handing')} (?P<robot>{self._names}) (?P<order>.+)", text):
-            own = self._part("named", found["robot"], found["order"], after=False, known=())
-            return TeamWish("parts", (own,)) if own is not None else None
+        if found := self._match(rf"{self.of('handing')} (?P<rest>{self.of('one')} .+)", text):
+            text = found["rest"]
+        handing = (
+            rf"(?:{self.of('handing')} (?P<robot>{self._names})|(?P<own>{self._names}) {self.of('duty')})"
+        )
+        found = self._match(rf"{handing} (?P<order>.+)", text)
+        if found and not (asks and found["own"]):
+            robot = found["robot"] or found["own"]
+            if re.search(rf"\b{self._names}\b", found["order"], re.IGNORECASE):
+                text = f"{robot} {found['order']}"  # the next one has a part of its own
+            elif not self._match(self.of("last"), found["order"]) or found["robot"]:
+                return self._handed(robot, found["order"])
         if found := self._match(rf"(?P<robot>{self._names}) {self.of('modal')} {self.of('last')}", text):
             return TeamWish("parts", (Part("named", "", self._robots[found["robot"].lower()]),))
         if found := self._match(rf"(?P<order>.+?),? (?P<all>{self.of('all')}|{self.of('each')})", text):
@@ -205,6 +216,11 @@ class _Words:
         if not made or (alone and only & {"named", "rest"}) or (asks and "named" in only):
             return None
         return TeamWish("parts", tuple(made))
+
+    def _handed(self, robot: str, order: str) -> TeamWish | None:
+        """What one robot is to do, whoever hears it."""
+        own = self._part("named", robot, order, after=False, known=())
+        return TeamWish("parts", (own,)) if own is not None else None
 
     def _taken_over(self, text: str) -> TeamWish | None:
         """That one robot does what is left of another one's work."""
@@ -239,6 +255,9 @@ class _Words:
             waits = re.search(rf"[,;]? {when}$", f" {order}", re.IGNORECASE)
             order = order[: waits.start() - 1].strip() if waits else order
             pieces.append((who, one["named"] or "", order, bool(one["then"] or one["when"] or waits)))
+        for at in range(len(pieces) - 2, -1, -1):
+            if not pieces[at][2] and not pieces[at + 1][3]:  # "Ada and Kim go to the gate": both do
+                pieces[at] = (*pieces[at][:2], pieces[at + 1][2], pieces[at][3])
         return pieces
 
     def _part(
@@ -252,6 +271,9 @@ class _Words:
     ) -> Part | None:
         name = self._robots[robot.lower()] if robot else ""
         order = said.strip(" ,")
+        way = re.match(r"to (\w+)", order, re.IGNORECASE)
+        if way and (way[1].lower(),) not in lexicon().verbs:
+            order = f"go {order}"
         while found := re.match(rf"{self.of('modal')} ", order, re.IGNORECASE):
             order = order[found.end() :]
         if self._match(self.of("last"), order):
@@ -286,5 +308,6 @@ def _in_base_form(order: str) -> str:
     """What somebody else does, as one says it to them: "goes to the gate" is "go to the gate"."""
     first, _, rest = order.partition(" ")
     verbs = lexicon().verbs
-    base = next((form for form in lemmas(first) if (form,) in verbs), first)
+    now = first.lower().endswith("s")  # "went to the gate" tells what was, and is no order
+    base = next((form for form in lemmas(first) if now and (form,) in verbs), first)
     return f"{base} {rest}".strip() if (first.lower(),) not in verbs else order
