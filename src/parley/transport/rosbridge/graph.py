@@ -46,7 +46,7 @@ class Graph(EndpointGraph):
         """Whether the bridge tells who is there; without its `rosapi` it does not."""
 
     def ends(self) -> Iterable[Endpoint]:
-        """See `EndpointGraph.ends`; a bridge does not tell whether others have one that we have: it is ours."""
+        """See `EndpointGraph.ends`; an end that others have as well counts as ours: no bridge tells."""
         return frozenset(self._own).union(self._seen)
 
     def add_own(self, end: Endpoint) -> None:
