@@ -137,16 +137,17 @@ class Room:
 
 @asynccontextmanager
 async def room(
-    changes: Mapping[str, Any] | None = None, language: Language | None = None
+    changes: Mapping[str, Any] | None = None, language: Language | None = None, *, model: str = ""
 ) -> AsyncIterator[Room]:
     """Robot "A" in two rooms with `changes` that its map of free floor does not know.
 
     Args:
         changes: See `two_rooms`.
         language: None: a scripted one.
+        model: Of the robot, if it is another one.
     """
     script = ScriptedLanguage(language)
-    world = two_rooms(changes)
+    world = two_rooms(changes).with_models(model) if model else two_rooms(changes)
     async with Simulator(world, clock=SimClock(), speed=None) as simulator:
         occupancy = survey(two_rooms(), 0.3)
         yield Room(

@@ -32,6 +32,8 @@ def test_parameters_are_those_of_the_thesis() -> None:
         "Say": ({"text": "string", "to": "string"}, {}),
         "Follow": ({"person": "string", "duration": "number"}, {}),
         "Dock": ({}, {}),
+        "PickUp": ({"thing": "string"}, {}),
+        "Place": ({"thing": "string"}, {}),
     }
 
 
@@ -41,6 +43,7 @@ def test_effects_say_who_moves_and_who_asks() -> None:
         "AskOperator": ("asks_operator",), "KeepPicture": ("remembers",), "MoveBy": ("moves",),
         "TurnBy": ("turns",), "TakePicture": ("looks", "shows"), "Wait": ("waits",),
         "Say": ("speaks",), "Follow": ("follows", "moves"), "Dock": ("moves",),
+        "PickUp": ("holds",), "Place": ("puts",),
     }  # fmt: skip
 
 

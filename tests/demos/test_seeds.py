@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import itertools
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from parley.clock import SimClock
-from parley.demos.catalogue import DEMOS, load_demo
+from parley.demos.catalogue import DEMOS, demo_folder, load_demo
+from parley.demos.story import Story
 from parley.gate.book import RuleBook
 from parley.robots.base import NavigationControl
 from parley.robots.simulated import SimulatedFleet
@@ -65,6 +67,15 @@ async def test_story_holds_in_other_words_and_with_another_seed(
 ) -> None:
     """Those of the other demonstrations are played with two seeds beside their own tests."""
     assert (await played(load_demo(name), tmp_path, variant, seed))[0] == ""
+
+
+@pytest.mark.parametrize(("variant", "seed"), [("in_two_orders", 3), ("no_bottle", 0)])
+async def test_a_robot_with_an_arm_really_brings_the_water(variant: str, seed: int, tmp_path: Path) -> None:
+    story = Story.load(demo_folder("nursing-home") / "with_arm.yaml")
+    reason, _, system = await played(replace(load_demo("nursing-home"), told=story), tmp_path, variant, seed)
+    assert reason.partition(":")[0] == story.variant(variant).fails
+    carried = [thing.held_by for thing in system.simulator.world.things if thing.held_by]
+    assert carried == []
 
 
 @pytest.mark.soak

@@ -60,6 +60,10 @@ class DummyRobot:
     def people(self) -> tuple[SeenPerson, ...]:
         return ()
 
+    @property
+    def arm(self) -> None:
+        return None
+
     async def speak(self, text: str) -> None:
         self.told.append(f"speak {text}")
 

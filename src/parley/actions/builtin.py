@@ -10,6 +10,8 @@ from parley.actions.inspect import inspect
 from parley.actions.keep_picture import keep_picture
 from parley.actions.move_by import move_by
 from parley.actions.navigate_to import navigate_to
+from parley.actions.pick_up import pick_up
+from parley.actions.place import place
 from parley.actions.say import say
 from parley.actions.take_picture import take_picture
 from parley.actions.turn_by import turn_by
@@ -33,5 +35,7 @@ BUILTIN_ACTIONS: tuple[ActionSpec, ...] = tuple(
         say,
         follow,
         dock,
+        pick_up,
+        place,
     )
 )

@@ -17,7 +17,7 @@ from parley.umrf.action import Outcome, action
 from parley.world.object_map import ObjectMap
 from parley.world.whereabouts import Footprint, Place, called, named_place, nearest, standing
 
-__all__ = ["FEED", "Inspection", "inspect"]
+__all__ = ["FEED", "Inspection", "inspect", "not_seen"]
 
 FEED: Final = "inspection"
 """Name of the display feed that gets the pictures."""
@@ -80,7 +80,7 @@ async def inspect(ctx: ActionContext, inspect: str) -> Inspection | Outcome:
     if report.attention or (report.found and report.unwanted):
         raise _alarm(report.text, report, found)
     if report.found is False and not report.unwanted:
-        raise _not_seen(image, report.wanted or inspect, report.text, ctx.world.objects)
+        raise not_seen(image, report.wanted or inspect, report.text, ctx.world.objects)
     return Outcome(True, {"inspection_result": report.text}, _facts(image))
 
 
@@ -95,7 +95,7 @@ def _answered(
     if report.found is None:
         raise _alarm(report.text, replace(report, wanted=request), found)
     if not report.found and not report.unwanted:
-        failure = _not_seen(image, report.wanted or request, report.text, ctx.world.objects)
+        failure = not_seen(image, report.wanted or request, report.text, ctx.world.objects)
         if failure.code is not FailureCode.NO_MATCH:
             raise failure
     return Outcome(report.found, {"inspection_result": report.text}, _facts(image))
@@ -160,7 +160,7 @@ def _note_sighting(ctx: ActionContext, wanted: str, thing: Detection | None, ima
     ctx.remember_picture(f"picture of the {wanted[:150]}", image, info=f"The {wanted}, as {ctx.actor} saw it")
 
 
-def _not_seen(image: CameraImage, wanted: str, text: str, known: ObjectMap) -> ActionFailure:
+def not_seen(image: CameraImage, wanted: str, text: str, known: ObjectMap) -> ActionFailure:
     """Missing and hidden call for different help, so they are different failures."""
     hiding = _in_the_way(image, known)
     seen = [detection.label for detection in image.detections or ()]

@@ -88,14 +88,18 @@ class Demo:
 
     def system_for(self, story: Story, config: SystemConfig, variant: Variant | None = None) -> System:
         """A system for a story with a world, robots and faults of its own."""
-        world = self.world.with_changes(story.world)
+        world, occupancy = self.world.with_changes(story.world), self.occupancy
+        if story.model:  # what one robot drives under another does not
+            world, occupancy = world.with_models(story.model), None
         first = world.robots[0]
         more = tuple(
             RobotEntry(name=name, model=first.model, pose=pose) for name, pose in story.robots.items()
         )
         if story.ask_first:
             config = config.changed({"approval": "ask_first"})
-        own = replace(self, world=world.model_copy(update={"robots": (*world.robots, *more)}))
+        own = replace(
+            self, occupancy=occupancy, world=world.model_copy(update={"robots": (*world.robots, *more)})
+        )
         return own.system(config, variant, actions=with_faults(BUILTIN_ACTIONS, story.faults))
 
 

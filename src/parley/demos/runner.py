@@ -35,7 +35,7 @@ class StoryBroken(Exception):  # noqa: N818 - an outcome, not an error of the pr
     Attributes:
         reason: One word: the code of the failure behind it, or `timed_out`, `not_asked`, `other_question`,
             `other_reply`, `other_plan`, `not_told`, `not_remembered`, `elsewhere`, `not_shown`,
-            `not_finished`.
+            `not_put`, `not_finished`.
         text: What was expected and what happened.
     """
 
@@ -302,6 +302,8 @@ class _Player:
                 raise StoryBroken("not_shown", f"nothing was shown on {feed}")
         if expected.near:
             await self._expect_near(expected)
+        for name, on in expected.put.items():
+            self._expect_put(name, on)
 
     async def _expect_near(self, expected: Finished) -> None:
         thing = self._system.known.get(expected.near)
@@ -317,6 +319,13 @@ class _Player:
         """From the robot's middle, where it said last that it is, to the object's bounding box."""
         pose = self._observer.poses.get(self._robot)
         return math.inf if pose is None else thing.gap_m(pose.x, pose.y)
+
+    def _expect_put(self, name: str, on: str) -> None:
+        assert self._system.simulator is not None, "who looks at the world plays where it is"
+        world, under = self._system.simulator.world, self._system.known.get(on)
+        lying = [world.base_of(thing) for thing in world.standing() if thing.name == name]
+        if under is None or not lying or under.gap_m(lying[0].x_m, lying[0].y_m) > 0:
+            raise StoryBroken("not_put", f"{name} does not lie on {on}")
 
     async def _see(self, step: StoryStep) -> None:
         observer = self._observer

@@ -46,6 +46,8 @@ class Finished(_Entry):
     """How close its middle must be to the object's bounding box."""
     shown: tuple[str, ...] = ()
     """Display feeds that must have had a picture."""
+    put: dict[str, str] = Field(default_factory=dict)
+    """Things of the world, and on which object of the map each must lie."""
 
 
 class StoryStep(_Entry):
@@ -125,6 +127,8 @@ class Story(_Entry, TextFile):
     """What it shows, in a few words."""
     world: WorldChanges = Field(default_factory=WorldChanges)
     """What is different in the world from the start."""
+    model: str = ""
+    """The model that its robots are, instead of the world's."""
     robots: dict[str, PoseTuple] = Field(default_factory=dict)
     """More robots, of the first one's model, by name, and where they start."""
     ask_first: bool = False

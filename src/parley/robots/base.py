@@ -18,6 +18,7 @@ if TYPE_CHECKING:  # who only writes a robot class need not load it
 
 __all__ = [
     "COMMAND_LIFETIME_S",
+    "Arm",
     "CameraImage",
     "Detection",
     "DriveLimits",
@@ -125,6 +126,31 @@ class NavigationControl:
     """While true the robot stands still and waits."""
 
 
+class Arm(Protocol):
+    """What a robot takes things with."""
+
+    @property
+    def holds(self) -> str:
+        """What is in the hand, in words; empty: nothing."""
+        ...
+
+    async def pick_up(self, thing: Detection) -> None:
+        """Take something that was just seen.
+
+        Raises:
+            ActionFailure: `unreachable`, `not_capable` (too large, the hand is full), `hardware`.
+        """
+        ...
+
+    async def put_down(self, x_m: float, y_m: float) -> None:
+        """Put what is in the hand onto what stands there, in the map frame; on the floor if nothing does.
+
+        Raises:
+            ActionFailure: `unreachable`, `not_capable` (the hand is empty), `hardware`.
+        """
+        ...
+
+
 class Robot(Protocol):
     """One robot."""
 
@@ -132,7 +158,7 @@ class Robot(Protocol):
 
     @property
     def capabilities(self) -> frozenset[str]:
-        """What it has: `drive`, `camera`, `lidar`, `sees_people`, `loudspeaker`, `charges`, ..."""
+        """What it has: `drive`, `camera`, `lidar`, `sees_people`, `loudspeaker`, `charges`, `arm`, ..."""
         ...
 
     @property
@@ -191,6 +217,11 @@ class Robot(Protocol):
 
     def people(self) -> tuple[SeenPerson, ...]:
         """Whom it sees now, the nearest first; nobody without `sees_people`."""
+        ...
+
+    @property
+    def arm(self) -> Arm | None:
+        """What it takes things with; None without `arm`."""
         ...
 
     async def speak(self, text: str) -> None:

@@ -20,6 +20,7 @@ from parley.errors import ActionFailure, FailureCode
 from parley.messages.status import Trouble
 from parley.robots.base import (
     COMMAND_LIFETIME_S,
+    Arm,
     CameraImage,
     DriveLimits,
     LaserScan,
@@ -58,8 +59,8 @@ class RobotBase(ABC):
     """
 
     capabilities: frozenset[str] = frozenset({"drive"})
-    """What it has: `drive`, `camera`, `lidar`, `sees_people`, `loudspeaker`, and words of your own that your
-    actions ask for."""
+    """What it has: `drive`, `camera`, `lidar`, `sees_people`, `loudspeaker`, `charges`, `arm`, and words of
+    your own that your actions ask for."""
     radius_m: float = 0.25
     """Radius of its footprint."""
     limits: DriveLimits = DriveLimits(max_speed_mps=0.4, max_turn_radps=1.5)
@@ -158,6 +159,11 @@ class RobotBase(ABC):
     def people(self) -> tuple[SeenPerson, ...]:
         """Whom it sees now and where, the nearest first; here nobody. It goes with `sees_people`."""
         return ()
+
+    @property
+    def arm(self) -> Arm | None:
+        """What it takes things with; here it has none. It goes with the capability `arm`."""
+        return None
 
     async def speak(self, text: str) -> None:  # noqa: B027 - most robots have none
         """Say something aloud; here there is no loudspeaker. It goes with `loudspeaker`."""

@@ -7,7 +7,16 @@ from dataclasses import replace
 
 from parley.errors import ActionFailure, FailureCode
 from parley.messages.status import Trouble
-from parley.robots.base import CameraImage, LaserScan, NavigationControl, Robot, SeenPerson, Sight, Velocity
+from parley.robots.base import (
+    Arm,
+    CameraImage,
+    LaserScan,
+    NavigationControl,
+    Robot,
+    SeenPerson,
+    Sight,
+    Velocity,
+)
 from parley.umrf.motion import Motion
 from parley.world.geometry import Pose2D
 
@@ -76,6 +85,16 @@ class RunRobot:
     def people(self) -> tuple[SeenPerson, ...]:
         """See `Robot.people`."""
         return self._robot.people()
+
+    @property
+    def arm(self) -> Arm | None:
+        """See `Robot.arm`.
+
+        Raises:
+            ActionFailure: `declined`: this run was stopped.
+        """
+        self._check()
+        return self._robot.arm
 
     async def speak(self, text: str) -> None:
         """See `Robot.speak`."""

@@ -12,6 +12,7 @@ from parley.gate.fence import Fence
 from parley.gate.judge import RobotFacts
 from parley.messages.status import Trouble
 from parley.robots.base import (
+    Arm,
     CameraImage,
     Detection,
     DriveLimits,
@@ -22,6 +23,7 @@ from parley.robots.base import (
     Velocity,
 )
 from parley.robots.navigator import Navigator
+from parley.robots.simulated_arm import SimulatedArm
 from parley.sentences import sentence
 from parley.sim.simulator import Simulator
 from parley.sim.starts import started
@@ -51,6 +53,7 @@ class SimulatedRobot:
         self._model = simulator.model(name)
         self._navigator: Navigator | None = None
         self._fence = fence
+        self._arm = SimulatedArm(simulator, name) if self._model.arm_reach_m else None
         if fence is not None:
             simulator.set_guard(name, fence.limit)
 
@@ -58,6 +61,7 @@ class SimulatedRobot:
     def capabilities(self) -> frozenset[str]:
         """See `Robot.capabilities`."""
         has = {"drive", "lidar"} | ({"camera", "sees_people"} if self._model.camera else set())
+        has |= {"arm"} if self._arm is not None else set()
         docks = any(thing.charges for thing in self._simulator.world.things)
         return frozenset(has | ({"charges"} if docks and self.battery() is not None else set()))
 
@@ -146,6 +150,11 @@ class SimulatedRobot:
     def people(self) -> tuple[SeenPerson, ...]:
         """See `Robot.people`."""
         return tuple(SeenPerson(name, x, y) for name, x, y in self._simulator.people(self.name))
+
+    @property
+    def arm(self) -> Arm | None:
+        """See `Robot.arm`."""
+        return self._arm
 
     async def speak(self, text: str) -> None:
         """See `Robot.speak`: it has no loudspeaker."""

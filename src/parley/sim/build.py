@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import mujoco
 from PIL import ImageColor
 
-from parley.sim.entries import RobotEntry, Thing
+from parley.sim.entries import RobotEntry
 from parley.sim.robot_model import RobotModel
 from parley.sim.solids import Solid
 from parley.sim.world_file import WorldFile
@@ -72,19 +72,17 @@ def build_spec(world: WorldFile) -> mujoco.MjSpec:
     floor.rgba = _rgba(ImageColor.getrgb(world.floor)[:3])
     for index, wall in enumerate(world.walls):
         _add_solids(spec.worldbody.add_body(name=f"{BodyKind.WALL}{index}"), wall.solids())
+    for thing in world.standing():
+        body = spec.worldbody.add_body(name=thing_body(thing.name))
+        _add_solids(body, thing.solids(world.base_of(thing)))
+    robots = {robot.name: _add_robot(spec, robot) for robot in world.robots}
     for thing in world.things:
-        add_thing(spec, world, thing)
-    for robot in world.robots:
-        _add_robot(spec, robot)
+        if carrier := world.carrier_of(thing):
+            _add_solids(robots[carrier], thing.solids(world.base_of(thing)), mass=0, **_SEEN_ONLY)
     return spec
 
 
-def add_thing(spec: mujoco.MjSpec, world: WorldFile, thing: Thing) -> None:
-    """Put a thing of `world` into a specification (recompile it afterwards)."""
-    _add_solids(spec.worldbody.add_body(name=thing_body(thing.name)), thing.solids(world.base_of(thing)))
-
-
-def _add_solids(body: mujoco.MjsBody, solids: Iterable[Solid]) -> None:
+def _add_solids(body: mujoco.MjsBody, solids: Iterable[Solid], **more: float) -> None:
     for solid in solids:
         length, width, height = solid.size_m
         size = (
@@ -96,11 +94,11 @@ def _add_solids(body: mujoco.MjsBody, solids: Iterable[Solid]) -> None:
             pos=(solid.x_m, solid.y_m, solid.z_m + height / 2),
             quat=(math.cos(solid.yaw_rad / 2), 0, 0, math.sin(solid.yaw_rad / 2)),
             rgba=_rgba(solid.rgb),
-            **_SOLID,
+            **(_SOLID | more),
         )
 
 
-def _add_robot(spec: mujoco.MjSpec, entry: RobotEntry) -> None:
+def _add_robot(spec: mujoco.MjSpec, entry: RobotEntry) -> mujoco.MjsBody:
     name, model = robot_body(entry.name), entry.model
     body = spec.worldbody.add_body(name=name)
     for suffix, kind, axis in (
@@ -127,6 +125,7 @@ def _add_robot(spec: mujoco.MjSpec, entry: RobotEntry) -> None:
         servo.set_to_velocity(kv=mass / _SERVO_TIME_S)
         servo.forcerange = (-limit, limit)
         servo.forcelimited = True
+    return body
 
 
 def _add_hull(body: mujoco.MjsBody, model: RobotModel) -> None:

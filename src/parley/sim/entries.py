@@ -144,6 +144,8 @@ class Thing(Entry):
     """The thing it stands in or on; it moves and disappears with that."""
     charges: bool = False
     """Whether it charges the robots that stand at it."""
+    held_by: Name | None = None
+    """The robot that has it in its hand; its pose is in the frame of that."""
     front_rad: float | None = None
     """Direction its usable side faces, in its own frame."""
     parts: tuple[Part, ...] = Field(min_length=1)

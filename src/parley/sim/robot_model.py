@@ -60,6 +60,8 @@ class RobotModel(_Part):
     """In how long an empty battery fills at a dock."""
     base_height_m: float | None = Field(default=None, gt=0)
     """Up to where it is as wide as its radius; above is a slim body. None: a little over half its height."""
+    arm_reach_m: float | None = Field(default=None, gt=0)
+    """How far from its middle it can take things; None: it has no arm."""
     legs: bool = False
     """Whether it looks like a body on four legs."""
     colour: str = "#2b2f36"
@@ -67,25 +69,26 @@ class RobotModel(_Part):
     lidar: LidarModel = LidarModel()
 
 
+_TIAGO = RobotModel(
+    radius_m=0.27,
+    height_m=1.2,
+    base_height_m=0.35,
+    mass_kg=70.0,
+    max_speed_mps=0.8,
+    max_turn_radps=1.4,
+    endurance_s=5.0 * 3600,
+    colour="#d9dde2",
+    camera=CameraModel(mount_height_m=1.1, mount_forward_m=0.12, pitch_rad=-0.5, fov_rad=1.2, aside_rad=1.24),
+    lidar=LidarModel(range_m=12.0, mount_height_m=0.2),
+)
+
 PRESETS: Mapping[str, RobotModel] = MappingProxyType(
     {
         "turtlebot3_waffle": RobotModel(
             radius_m=0.2, height_m=0.3, max_speed_mps=0.26, max_turn_radps=1.82, endurance_s=2.0 * 3600
         ),
-        "tiago": RobotModel(
-            radius_m=0.27,
-            height_m=1.2,
-            base_height_m=0.35,
-            mass_kg=70.0,
-            max_speed_mps=0.8,
-            max_turn_radps=1.4,
-            endurance_s=5.0 * 3600,
-            colour="#d9dde2",
-            camera=CameraModel(
-                mount_height_m=1.1, mount_forward_m=0.12, pitch_rad=-0.5, fov_rad=1.2, aside_rad=1.24
-            ),
-            lidar=LidarModel(range_m=12.0, mount_height_m=0.2),
-        ),
+        "tiago": _TIAGO,
+        "tiago_with_arm": _TIAGO.model_copy(update={"arm_reach_m": 1.1}),
         "spot": RobotModel(
             radius_m=0.42,
             height_m=0.7,

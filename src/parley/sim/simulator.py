@@ -298,7 +298,18 @@ class Simulator:
         """
         if not isinstance(changes, WorldChanges):
             changes = WorldChanges.parse(changes)
-        world = self._world.with_changes(changes)
+        with self._lock:
+            self.become(self._world.with_changes(changes))
+            for base in self._bases.values():
+                told = changes.robots.get(base.entry.name)
+                if told is not None and told.battery is not None:
+                    base.battery.charge = told.battery
+                if base.entry.name in changes.move:
+                    self._data.qpos[base.slots] = changes.move[base.entry.name]
+                    self._data.qvel[base.slots] = 0.0
+
+    def become(self, world: WorldFile) -> None:
+        """Take over another state of this world, with the same robots, which stay where they are."""
         with self._lock:
             qpos, qvel, ctrl = self._data.qpos.copy(), self._data.qvel.copy(), self._data.ctrl.copy()
             self._load(world)
@@ -308,12 +319,6 @@ class Simulator:
                 base.body_id = self._body_id(robot_body(base.entry.name))
                 base.last_sweep = None
                 base.entry = world.robot(base.entry.name)
-                told = changes.robots.get(base.entry.name)
-                if told is not None and told.battery is not None:
-                    base.battery.charge = told.battery
-                if base.entry.name in changes.move:
-                    self._data.qpos[base.slots] = changes.move[base.entry.name]
-                    self._data.qvel[base.slots] = 0.0
 
     def occupancy(self, robot: str, resolution_m: float = 0.05) -> OccupancyMap:
         """The map that a perfect survey of the world as it is now would give this robot."""
@@ -336,7 +341,7 @@ class Simulator:
         self._forces = self._model.actuator_forcerange.copy()
         self._names = {
             self._body_id(thing_body(thing.name)): (thing.name, thing.label or thing.words)
-            for thing in world.things
+            for thing in world.standing()
         } | {
             self._body_id(robot_body(robot.name)): (robot.name, f"robot {robot.name}")
             for robot in world.robots
@@ -430,10 +435,8 @@ class Simulator:
             self.on_event(event)
 
     def _place_of(self, thing: str) -> Pose2D | None:
-        try:
-            return self._world.base_of(self._world.thing(thing))
-        except KeyError:
-            return None
+        there = (one for one in self._world.standing() if one.name == thing)
+        return next((self._world.base_of(one) for one in there), None)
 
     def _step_world(self, now_s: float) -> None:
         with self._lock:

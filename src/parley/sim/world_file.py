@@ -119,8 +119,38 @@ class WorldFile(Entry, TextFile):
                 return robot
         raise KeyError(name)
 
+    def with_models(self, model: str) -> Self:
+        """This world with other robots of the same names.
+
+        Raises:
+            FileFormatError: There is no such model.
+        """
+        robots = [robot.model_dump(exclude={"model"}) | {"model": model} for robot in self.robots]
+        return self.model_copy(
+            update={"robots": tuple(validated(RobotEntry, robot, "model") for robot in robots)}
+        )
+
+    def in_hand(self, robot: str) -> Thing | None:
+        """What a robot carries."""
+        return next((thing for thing in self.things if thing.held_by == robot), None)
+
+    def carrier_of(self, thing: Thing) -> str | None:
+        """The robot that carries a thing, or what it stands in."""
+        while thing.inside is not None:
+            thing = self.thing(thing.inside)
+        return thing.held_by
+
+    def standing(self) -> tuple[Thing, ...]:
+        """The things that no robot carries."""
+        return tuple(thing for thing in self.things if self.carrier_of(thing) is None)
+
+    def with_thing(self, thing: Thing) -> Self:
+        """This world with a thing as it is now."""
+        things = tuple(thing if other.name == thing.name else other for other in self.things)
+        return self.model_copy(update={"things": things})
+
     def base_of(self, thing: Thing) -> Pose2D:
-        """Where a thing's frame stands in the map frame."""
+        """Where a thing's frame stands in the map frame, or in that of the robot that carries it."""
         own = Pose2D(*thing.pose)
         if thing.inside is None:
             return own
@@ -157,7 +187,9 @@ class WorldFile(Entry, TextFile):
     def _check_names(self, changes: WorldChanges, file: str) -> None:
         things = {thing.name for thing in self.things}
         robots = {robot.name for robot in self.robots}
+        held = tuple(thing.held_by for thing in changes.add if thing.held_by)
         for field, names, known in (
+            ("add.held_by", held, robots),
             ("remove", changes.remove, things),
             ("move", changes.move, things | robots),
             ("robots", changes.robots, robots),

@@ -296,6 +296,8 @@ class Builder(Ways):
         other = _WAYS.get(wish.frame)
         if other is not None:
             return other(self, values)
+        if wish.frame == "PUT":
+            return Ask("I have no arm. I can go there and tell you what I see.")
         return Ask(
             f"I have no action to {self.lexicon.frames[wish.frame].gloss}. What else can I do for you?"
         )
@@ -394,7 +396,7 @@ class Builder(Ways):
                     return Ask(f"I cannot {gloss} with “{value.said}”. Can you say it otherwise?")
                 arguments[slot], said[role] = given, value.said
                 continue
-            there = role in "SL" or wish.frame == "CHARGE"
+            there = role in "SL" or wish.frame in ("CHARGE", "PUT")
             way = self.nearing(value) if there and "GO" in self.skills else None
             if isinstance(way, list):
                 before += way
@@ -442,7 +444,11 @@ class Builder(Ways):
         return [*way, deed]
 
     def _take(self, values: dict[str, Value]) -> list[Deed] | Ask:
-        thing, ask = values.get("T"), self.skills.get("ASK")
+        thing, ask, take = values.get("T"), self.skills.get("ASK"), self.skills.get("TAKE")
+        if thing is not None and take is not None and "T" in take.roles:
+            found = self._look_for(values)
+            deed = Deed("TAKE", take, {take.roles["T"]: thing.argument}, {"T": thing.said})
+            return found if isinstance(found, Ask) else [*found[:-1], deed]
         if thing is None or ask is None or not ask.roles:
             return Ask("I cannot pick things up." if thing else "What shall I take?")
         found = self._look_for(values)
@@ -459,8 +465,14 @@ class Builder(Ways):
             return taken
         if goal is None:
             return Ask("Where shall I bring it?")
-        way = self.way(goal)
-        return way if isinstance(way, Ask) else [*taken, *way]
+        way, put = self.way(goal), self.skills.get("PUT")
+        if isinstance(way, Ask):
+            return way
+        if put is None or taken[-1].frame != "TAKE":
+            return [*taken, *way]
+        said = values["T"]
+        slots = {put.roles["T"]: said.argument} if "T" in put.roles else {}
+        return [*taken, *way, Deed("PUT", put, slots, {"T": said.said})]
 
 
 _CLAUSE = frozenset(

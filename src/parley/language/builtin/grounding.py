@@ -157,6 +157,7 @@ class Grounder:
         if place is not None:
             return Value(place.thing, with_article(place.thing), (), place)
         looked_for = frame in ("FIND", "COUNT", "DO", "MAKE") or rest or not objects or placed
+        looked_for = looked_for or (frame in self.skills and self.skills[frame].is_by_hand)
         movable = frame in _MOVABLE and filler.role == "T" and looked_for
         movable = movable and not {*filler.words[1:]} & lexicon.classes["me"]
         if movable or frame in ("PHOTO", "BELOC"):

@@ -73,6 +73,11 @@ class Skill:
         return name in self.action.inputs and parameters_of(self.action)[name].kind == "person"
 
     @property
+    def is_by_hand(self) -> bool:
+        """Whether it takes what is before the robot, or puts down what it has: no map need know that."""
+        return bool({"holds", "puts"} & {*self.action.effects})
+
+    @property
     def is_only_named(self) -> bool:
         """Whether its maker says nothing of it: nobody knows whether it drives to what it is about."""
         return not (self.action.description or self.action.phrases or self.action.effects)
