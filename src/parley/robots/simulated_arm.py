@@ -16,8 +16,6 @@ __all__ = ["SimulatedArm"]
 
 _GRASPS_M: Final = 0.3
 """Of larger things it gets no hold: the second longest side counts."""
-_HAND: Final = (0.45, 0.75)
-"""Where the hand is: how far in front of the middle, and how high, for an arm of a metre."""
 _SAME_M: Final = 0.5
 _HIGHEST_M: Final = 1.3
 _MOVES_S: Final = 4.0
@@ -52,7 +50,7 @@ class SimulatedArm:
         if any(sorted(solid.size_m)[1] > _GRASPS_M for solid in solids):
             text = sentence("The {thing} is too large for my hand.", thing=thing.label)
             raise ActionFailure(FailureCode.NOT_CAPABLE, text, {"wanted": thing.label})
-        forward_m, height_m = (self._reach_m * share for share in _HAND)
+        forward_m, height_m = self._simulator.model(self._robot).hand_m
         hand = {"held_by": self._robot, "inside": None, "pose": (forward_m, 0.0, 0.0), "z_m": height_m}
         self._simulator.become(self._simulator.world.with_thing(meant.model_copy(update=hand)))
 

@@ -141,6 +141,10 @@ def _add_hull(body: mujoco.MjsBody, model: RobotModel) -> None:
         rgba=(0, 0, 0, 0) if model.legs else colour,  # rays pass what nobody sees: the legs are seen
         **_SOLID,
     )
+    forward, height = model.hand_m
+    if model.arm_reach_m:
+        arm = {"size": (forward / 2, 0.03, 0.03), "pos": (forward / 2, 0, height - 0.03), "mass": 0}
+        body.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, rgba=_MARK, **arm, **_SEEN_ONLY)
     if model.legs:
         _add_legs(body, model, colour)
     else:

@@ -68,6 +68,12 @@ class RobotModel(_Part):
     camera: CameraModel | None = CameraModel()
     lidar: LidarModel = LidarModel()
 
+    @property
+    def hand_m(self) -> tuple[float, float]:
+        """How far in front of its middle, and how high, it carries what it has taken; 0, 0 without an arm."""
+        reach_m = self.arm_reach_m or 0.0
+        return 0.45 * reach_m, 0.75 * reach_m
+
 
 _TIAGO = RobotModel(
     radius_m=0.27,
