@@ -18,6 +18,7 @@ from parley.sim.entries import RobotEntry
 from parley.sim.robot_model import RobotModel
 from parley.sim.solids import Solid
 from parley.sim.world_file import WorldFile
+from parley.world.geometry import Pose2D
 
 __all__ = ["STEP_S", "BodyKind", "build_spec", "robot_body", "thing_body"]
 
@@ -73,8 +74,10 @@ def build_spec(world: WorldFile) -> mujoco.MjSpec:
     for index, wall in enumerate(world.walls):
         _add_solids(spec.worldbody.add_body(name=f"{BodyKind.WALL}{index}"), wall.solids())
     for thing in world.standing():
-        body = spec.worldbody.add_body(name=thing_body(thing.name))
-        _add_solids(body, thing.solids(world.base_of(thing)))
+        body = spec.worldbody.add_body(name=thing_body(thing.name), mocap=thing.walks is not None)
+        # Who walks is moved as a whole: their frame is the body's.
+        base = Pose2D(0.0, 0.0) if thing.walks is not None else world.base_of(thing)
+        _add_solids(body, thing.solids(base))
     robots = {robot.name: _add_robot(spec, robot) for robot in world.robots}
     for thing in world.things:
         if carrier := world.carrier_of(thing):

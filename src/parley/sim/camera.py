@@ -76,6 +76,8 @@ class RayCaster:
     def __init__(self, model: mujoco.MjModel) -> None:
         self._model = model
         self._data = mujoco.MjData(model)
+        self.people: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
+        """Where those stand who walk; None: where they begin."""
         # Copies: reading attributes of the model, or comparing with its enums, costs more than the casting.
         self._geom_colours = model.geom_rgba[:, :3].astype(np.float32)
         self._geom_bodies = model.geom_bodyid.astype(np.int32)
@@ -115,6 +117,8 @@ class RayCaster:
 
     def _arrange(self, qpos: NDArray[np.float64]) -> None:
         self._data.qpos[:] = qpos
+        if self.people is not None:
+            self._data.mocap_pos[:], self._data.mocap_quat[:] = self.people
         mujoco.mj_kinematics(self._model, self._data)
 
     def _draw(

@@ -15,6 +15,7 @@ from pydantic import (
     Field,
     ValidationInfo,
     field_validator,
+    model_validator,
 )
 
 from parley.files import validated
@@ -125,6 +126,14 @@ class Part(Entry):
         return size_m
 
 
+class Way(Entry):
+    """On which way somebody walks, again and again."""
+
+    over: tuple[Point, ...] = Field(min_length=1)
+    """Points in the map frame; the first one is reached from `pose`, and behind the last comes `pose`."""
+    speed_mps: Positive = 0.8
+
+
 class Thing(Entry):
     """Something that stands in the world."""
 
@@ -144,6 +153,8 @@ class Thing(Entry):
     """The thing it stands in or on; it moves and disappears with that."""
     charges: bool = False
     """Whether it charges the robots that stand at it."""
+    walks: Way | None = None
+    """Whether it moves by itself, as people do; then it is on no map."""
     held_by: Name | None = None
     """The robot that has it in its hand; its pose is in the frame of that."""
     front_rad: float | None = None
@@ -153,6 +164,12 @@ class Thing(Entry):
     """Whether it is drawn on the occupancy map (known before, not found out by driving)."""
     listed: bool = True
     """Whether it is in the object map."""
+
+    @model_validator(mode="after")
+    def _walks_freely(self) -> Self:
+        if self.walks is not None and (self.mapped or self.listed or self.inside or self.held_by):
+            raise ValueError("what walks is neither mapped nor listed, and stands in nothing")
+        return self
 
     @property
     def words(self) -> str:

@@ -32,6 +32,8 @@ from parley.sim.lidar import Sweep, sweep
 from parley.sim.people import people_in_sight
 from parley.sim.power import Battery, charges
 from parley.sim.robot_model import RobotModel
+from parley.sim.slipping import slipped
+from parley.sim.walks import Walkers
 from parley.sim.world_file import WorldChanges, WorldFile
 from parley.world.geometry import Pose2D, Velocity, wrap_angle
 from parley.world.occupancy import OccupancyMap
@@ -126,6 +128,7 @@ class Simulator:
         self._events = Events(world.events, seed)
         self.on_event: Callable[[WorldEvent], None] = lambda _: None
         """Told of everything that happens in the world by itself."""
+        self._walkers = Walkers(seed)
         self._load(world)
         self._bases = {
             entry.name: _Base(
@@ -339,6 +342,7 @@ class Simulator:
         self._model = build_spec(world).compile()
         self._data = mujoco.MjData(self._model)
         self._forces = self._model.actuator_forcerange.copy()
+        self._walkers.enter(world, self._model, self._data)
         self._names = {
             self._body_id(thing_body(thing.name)): (thing.name, thing.label or thing.words)
             for thing in world.standing()
@@ -354,11 +358,12 @@ class Simulator:
         if self._drawing is None:
             raise RuntimeError("the simulator is not open")
         with self._lock:
-            model, qpos = self._model, self._data.qpos.copy()
+            model, qpos, people = self._model, self._data.qpos.copy(), self._walkers.poses_of(self._data)
 
         def draw() -> Frame:
             if self._artist is None or self._artist.model is not model:
                 self._artist = RayCaster(model)
+            self._artist.people = people
             return work(self._artist, qpos)
 
         return await asyncio.get_running_loop().run_in_executor(self._drawing, draw)
@@ -412,6 +417,9 @@ class Simulator:
 
     def _step(self) -> None:
         self._use_batteries(self._busy())
+        robots = [(self.pose(name), base.entry.model.radius_m) for name, base in self._bases.items()]
+        with self._lock:
+            self._world = self._walkers.pass_time(BATCH_S, robots, self._world, self._data)
         self._step_world(self._clock.now_s())
         self._clock.advance(BATCH_S)
         self._happen()
@@ -446,7 +454,7 @@ class Simulator:
                 if expired:
                     base.command = STILL
                 brakes = expired or base.stopped
-                told = STILL if brakes else _slipped(self._guarded(base), base.entry, base.rng)
+                told = STILL if brakes else slipped(self._guarded(base), base.entry, base.rng)
                 self._data.ctrl[base.slots] = told.linear_mps, told.lateral_mps, told.angular_radps
                 self._model.actuator_forcerange[base.slots] = self._forces[base.slots] * (
                     BRAKING if brakes else 1.0
@@ -486,20 +494,6 @@ class Simulator:
             return base.command
         name = base.entry.name
         return base.guard(self.pose(name), self.velocity(name), base.command)
-
-
-def _slipped(told: Velocity, robot: RobotEntry, rng: np.random.Generator) -> Velocity:
-    """What becomes of a command on a slippery floor: each side loses another share of it."""
-    if not robot.slip or told == STILL:
-        return told
-    left, right, aside = 1.0 - rng.uniform(0.0, 2 * robot.slip, 3)
-    arm_m = robot.model.radius_m
-    wheels = (
-        (told.linear_mps - arm_m * told.angular_radps) * left,
-        (told.linear_mps + arm_m * told.angular_radps) * right,
-    )
-    turn = (wheels[1] - wheels[0]) / (2 * arm_m)
-    return Velocity(float(sum(wheels) / 2), float(turn), float(told.lateral_mps * aside))
 
 
 def _turned(joints: NDArray[np.float64], aside_rad: float) -> Pose2D:

@@ -119,6 +119,16 @@ class WorldFile(Entry, TextFile):
                 return robot
         raise KeyError(name)
 
+    def with_poses(self, poses: Mapping[str, Pose2D]) -> Self:
+        """This world with things standing elsewhere."""
+        things = tuple(
+            thing.model_copy(update={"pose": (pose.x_m, pose.y_m, pose.yaw_rad)})
+            if pose is not None
+            else thing
+            for thing, pose in ((thing, poses.get(thing.name)) for thing in self.things)
+        )
+        return self.model_copy(update={"things": things})
+
     def with_models(self, model: str) -> Self:
         """This world with other robots of the same names.
 
