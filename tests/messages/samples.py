@@ -334,6 +334,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "label": "Go there",
         "id": "s1",
         "for_next": True,
+        "order": "o1",
     },
     status.PlanUpdate: {
         "kind": "update",
@@ -341,12 +342,21 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "graph_name": "g",
         "state": "paused",
         "steps": [
-            {"action": MOVE, "node": "Move_0", "state": "paused", "label": "", "id": "s1", "for_next": False}
+            {
+                "action": MOVE,
+                "node": "Move_0",
+                "state": "paused",
+                "label": "",
+                "id": "s1",
+                "for_next": False,
+                "order": "o1",
+            }
         ],
         "revision": 3,
         "policy": "ask_when_risky",
         "held_by": KIM,
         "waits": ["9b"],
+        "later": ["o2"],
     },
     status.PlanRuling: {
         "order": "7",
