@@ -50,7 +50,7 @@ _KIND_OF_WORD: Final = _table(
     "client resident staff human somebody addressee performer doctor patients people pers passenger pupil",
     direction="direction heading side way orientation bearing course",
     place="place location loc room area destination dest goal waypoint where station position spot site zone "
-    "dock bay aisle floor surface lane route stop stage hall gate point landmark vessel",
+    "dock bay aisle floor field surface lane route stop stage hall gate point landmark vessel",
     text="text txt message msg sentence words question utterance phrase speech note title reminder reason "
     "topic name announcement content query statement",
 )

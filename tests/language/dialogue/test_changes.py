@@ -167,3 +167,22 @@ async def test_an_order_in_place_of_all_that_is_planned_says_so_and_leaves_nothi
     answer = await ENGINE.interpret(given("forget it and go to the lamp", "box", "gate"))
     assert [command.command for command in answer.system_cmd] == ["clear"]
     assert (goals(answer), "drop the rest" in answer.message_response) == (["lamp"], True)
+
+
+@pytest.mark.parametrize(
+    ("message", "order"),
+    [
+        ("before the desk, go to the lamp", ["gate", "lamp", "desk"]),
+        ("before you drive to the desk, go to the lamp", ["gate", "lamp", "desk"]),
+        ("go to the lamp after the gate", ["gate", "lamp", "desk"]),
+        ("when you are done with the desk, go to the lamp", ["gate", "desk", "lamp"]),
+    ],
+)
+async def test_what_comes_before_or_after_a_place_of_the_plan_is_put_in_there(
+    message: str, order: list[str]
+) -> None:
+    situation = given(message, "box", "gate", "desk")
+    answer = await ENGINE.interpret(situation)
+    gone = dropped(answer)
+    kept = [call for at, call in enumerate(situation.queue) if at not in gone]
+    assert goals(answer.model_copy(update={"queue": (*kept, *answer.queue)})) == order

@@ -16,7 +16,7 @@ from parley.language.builtin.tokens import tokenize
 from parley.language.builtin.ways import Ways
 from parley.world.object_map import MapObject
 
-__all__ = ["Look", "check"]
+__all__ = ["Look", "check", "seen_at", "whole_names"]
 
 _SEEING = frozenset({"see", "find", "notice", "spot", "discover", "meet"})
 _SPEAKERS = frozenset({"i", "we", "you"})
@@ -84,7 +84,7 @@ def _where(builder: Ways, words: Sequence[str], text: str) -> list[tuple[Value |
     inside = _in_each(builder, words, text)
     if inside:
         return inside
-    place = _place(builder, words)
+    place = seen_at(builder, words)
     return place if isinstance(place, Ask) else [(place, f"whether {_named_anew(builder, text)}")]
 
 
@@ -207,9 +207,9 @@ def _before_verb(words: Sequence[str]) -> Sequence[str]:
     return words[:at]
 
 
-def _place(builder: Ways, words: Sequence[str]) -> Value | Ask | None:
+def seen_at(builder: Ways, words: Sequence[str]) -> Value | Ask | None:
     """Where a statement is looked at: what it names, else what was spoken of; None: where the robot is."""
-    named = _named(words, builder.situation.objects)
+    named = whole_names(words, builder.situation.objects)
     for start, item in reversed(named):
         before = [
             word
@@ -251,7 +251,7 @@ def _one_called(
     return Ask(which_one(called), called)
 
 
-def _named(words: Sequence[str], objects: Sequence[MapObject]) -> list[tuple[int, MapObject]]:
+def whole_names(words: Sequence[str], objects: Sequence[MapObject]) -> list[tuple[int, MapObject]]:
     """The things whose whole names stand in a row of words, with where; a longer name hides a shorter one."""
     said = [stems([word]) for word in words]
     flat = [one[0] if one else "" for one in said]

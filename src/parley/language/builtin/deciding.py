@@ -9,7 +9,8 @@ from dataclasses import replace
 from parley.language.base import Situation
 from parley.language.builtin.addressing import addressed
 from parley.language.builtin.answers import answer, look_asked_for
-from parley.language.builtin.decision import Answer, Ask, Control, Decision, Do, Remember, Told
+from parley.language.builtin.checks import whole_names
+from parley.language.builtin.decision import Answer, Ask, Control, Decision, Deed, Do, Remember, Told
 from parley.language.builtin.deeds import Builder
 from parley.language.builtin.facts import places, rule_of, told_of
 from parley.language.builtin.fillers import Filler
@@ -156,6 +157,8 @@ def _alone(
         return builder.doubts[0] if builder.doubts else deeds
     if (both := contradicted(deeds, builder.refused)) is not None:
         return both
+    if (dropped := _dropped(parts, deeds, builder)) is not None and builder.doubts is None:
+        return dropped
     while deeds and deeds[-1].open_ended:
         deeds.pop()
     if not deeds:
@@ -165,6 +168,42 @@ def _alone(
         asked, unclear = builder.doubts
         return replace(asked, offer=tuple(deeds), unclear=unclear)
     return Do(tuple(deeds), tuple(builder.notes), told, () if isinstance(robots, Ask) else robots)
+
+
+_ANCHORS = frozenset({
+    "of", "near", "by", "beside", "behind", "under", "above", "below", "next", "opposite", "close", "with",
+    "between", "in", "on", "inside", "past", "around", "without", "except", "but", "not",
+})  # fmt: skip
+_PICKING = frozenset(
+    {"nearest", "closest", "furthest", "farthest", "between", "nearer", "closer", "left", "right"}
+)
+"""What leads to a name that only tells where something else is, or what is left out."""
+
+
+def _dropped(parts: Sequence[Part], deeds: Sequence[Deed], builder: Builder) -> Ask | None:
+    """A question about what an order names and no deed is about; None if nothing is lost."""
+    lexicon, told = builder.lexicon, [note.text for note in builder.notes]
+    for deed in deeds:
+        told += [*map(str, deed.arguments.values()), *deed.said.values(), deed.text]
+    text = " ".join(told).lower()
+    idle = lexicon.classes["determiners"] | {"to"}
+    for part in parts if deeds else ():
+        own = any(wish.own for wish in part.reading.wishes)
+        low = part.parse.tokens if part.clause.link == "main" and not own else ()
+        verbs = {at for verb in part.parse.verbs for at in range(verb.start, verb.end)}
+        words = [token.low for token in low]
+        found = whole_names(words, builder.situation.objects)
+        for start, thing in found:
+            before = [word for word in words[:start] if word not in idle]
+            anchors = {*before[-3:]} & _ANCHORS or {*before[-4:]} & _PICKING
+            called_alike = sum(start == other for other, _ in found) > 1
+            if anchors or called_alike or start in verbs or part.parse.acts[start] != "order":
+                continue
+            refused = any(thing.description in one for _, one in builder.refused)
+            small = {*thing.description.lower().split()} <= lexicon.classes["small"]
+            if not (refused or small or any(name.lower() in text for name in (thing.description, thing.id))):
+                return Ask(f"What shall I do with the {thing.description}? Please say it in other words.")
+    return None
 
 
 def _told(situation: Situation, parts: tuple[Part, ...], lexicon: Lexicon) -> tuple[Told, ...]:

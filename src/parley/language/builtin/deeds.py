@@ -7,17 +7,16 @@ from dataclasses import dataclass, replace
 from parley.language.builtin.amounts import Amount, amount_of
 from parley.language.builtin.checks import Look, check
 from parley.language.builtin.decision import Ask, Deed
+from parley.language.builtin.doing import Doing, slot_of
 from parley.language.builtin.fillers import Filler
 from parley.language.builtin.grounding import Value
 from parley.language.builtin.lexicon import stem
 from parley.language.builtin.own_action import OwnAction
 from parley.language.builtin.owned import owned
 from parley.language.builtin.saying import with_article
-from parley.language.builtin.skills import Skill
 from parley.language.builtin.speaking import followed, spoken
 from parley.language.builtin.structure import Part
 from parley.language.builtin.things import Mention, head_of, link
-from parley.language.builtin.ways import Ways, typed
 from parley.language.builtin.wishes import Wish
 from parley.messages.status import Kind
 from parley.umrf.kinds import is_word_for, parameters_of
@@ -30,7 +29,7 @@ _MOST_TIMES = 10
 
 
 @dataclass(slots=True)
-class Builder(Ways):
+class Builder(Doing):
     """Makes the deeds of one message."""
 
     def deeds(self, wish: Wish) -> list[Deed] | Ask:
@@ -90,25 +89,31 @@ class Builder(Ways):
         return replace(wish, fillers=tuple(both if f is thing else f for f in wish.fillers if f is not place))
 
     def _placed(self, wish: Wish) -> Wish:
-        """With the place of a thing that no map holds as a role of its own: "the cup on the desk"."""
-        thing = wish.one("T")
-        roles = self.lexicon.frames[wish.frame].roles
-        role = next((role for role in "SL" if role in roles), "")
-        if thing is None or wish.has("SL") or not role or wish.frame not in ("BRING", "TAKE", "GIVE", "FIND"):
-            return wish
-        words, small = thing.words, self.lexicon.classes["prepositions"] - {"of"}
-        at = next((at for at in range(thing.head + 1, len(words)) if words[at] in small), 0)
-        if not at or link(words, thing.head, self.situation.objects, self.lexicon).things:
-            return wish
+        """With the place of who or what no map holds as a role of its own: "the cup on the desk"."""
+        for about in _STANDING.get(wish.frame, "") if "GO" in self.skills else "":
+            one, roles = wish.one(about), self.lexicon.frames[wish.frame].roles
+            role = next((role for role in ("SL" if about == "T" else "L") if role in roles), "")
+            parts = self._standing(one, role) if one is not None and role and not wish.has(role) else ()
+            wish = (
+                replace(wish, fillers=(*(f for f in wish.fillers if f is not one), *parts)) if parts else wish
+            )
+        return wish
+
+    def _standing(self, named: Filler, role: str) -> tuple[Filler, ...]:
+        """Who or what is named, and the place that is told with it; nothing if none is."""
+        words, small = named.words, self.lexicon.classes["prepositions"] - {"of"}
+        at = next((at for at in range(named.head + 1, len(words)) if words[at] in small), 0)
+        if not at or link(words, named.head, self.situation.objects, self.lexicon).things:
+            return ()
         where = head_of(words[at:], self.lexicon)
-        if link(words[at:], where, self.situation.objects, self.lexicon).kind != "one":
-            return wish
-        middle = thing.start + at
-        parts = (
-            replace(thing, end=middle, words=words[:at], said=""),
-            Filler(role, middle, thing.end, where, words[at:], thing.share),
+        found = link(words[at:], where, self.situation.objects, self.lexicon)
+        if found.kind != "one" and not self.inside(words[at:]):
+            return ()
+        middle, text = named.start + at, " ".join(named.text.split()[:at])
+        return (
+            replace(named, end=middle, words=words[:at], said=text),
+            Filler(role, middle, named.end, where, words[at:], named.share),
         )
-        return replace(wish, fillers=(*(one for one in wish.fillers if one is not thing), *parts))
 
     def _logic(self, wish: Wish) -> Ask | None:
         """What of its logic no plan takes."""
@@ -281,7 +286,7 @@ class Builder(Ways):
             return self.way_back() if leads_back else self.way(values.get("G") or values.get("L"))
         if wish.frame == "WAIT":
             return self.wait(wish, values)
-        if wish.frame == "LOOK" and "K" in values and wish.all("K")[0].words[0] in ("if", "whether", "that"):
+        if wish.frame == "LOOK" and "K" in values and self._states(wish):
             return self._checked(wish, values)
         if wish.frame == "LOOK" and "K" in values and {*"TL"} & {*values}:
             return self._looked_through(values)
@@ -291,16 +296,46 @@ class Builder(Ways):
         skill = self.skills.get(wish.frame)
         if skill is not None and "T" in values and self.lexicon.frames[wish.frame].roles.get("T") == "thing":
             skill = skill.fitting(self.is_person(wish.all("T"), values["T"]))
-        if skill is not None:
-            return self._direct(wish, skill, values)
-        other = _WAYS.get(wish.frame)
+        other = _HANDLED.get(wish.frame) if "TAKE" in self.skills else None
+        if (
+            wish.frame in (*_HANDLED, "BRING")
+            and "T" in values
+            and (which := self._not_held(wish, values)) is not None
+        ):
+            return which
+        if skill is not None and (other is None or not self._is_fetched(wish, values)):
+            return self.direct(wish, skill, values)
+        other = other or _WAYS.get(wish.frame)
         if other is not None:
             return other(self, values)
+        return self._cannot(wish)
+
+    def _cannot(self, wish: Wish) -> Ask:
+        """That no action does what is wanted."""
         if wish.frame == "PUT":
             return Ask("I have no arm. I can go there and tell you what I see.")
         return Ask(
             f"I have no action to {self.lexicon.frames[wish.frame].gloss}. What else can I do for you?"
         )
+
+    def _not_held(self, wish: Wish, values: dict[str, Value]) -> Ask | None:
+        """The question what is meant by "it", which was a place or a thing of an earlier message."""
+        thing = values["T"]
+        if "S" in values and wish.frame == "GIVE" and "TAKE" not in self.skills:
+            return Ask("I cannot pick things up.")
+        before = self.before is not None and thing.things == (self.before,)
+        said = {*wish.all("T")[0].words} <= self.lexicon.classes["pronouns"]
+        if not (before and said and "TAKE" in self.skills) or thing.argument in self.held:
+            return None
+        return Ask(f"What do you mean by “{wish.all('T')[0].text}”? Please say its name.")
+
+    def _is_fetched(self, wish: Wish, values: dict[str, Value]) -> bool:
+        """Whether something is to be handed over that is not held yet, or to somebody who is elsewhere."""
+        thing = values.get("T")
+        if thing is None or wish.frame == "TAKE" or (wish.frame == "PUT" and thing.argument in self.held):
+            return False
+        there = thing.things or thing.place or {*"SL"} & {*values} or self.sought[1] == thing.argument
+        return wish.frame == "GIVE" or (bool(there) and self.finding() is not None)
 
     def _missing(self, wish: Wish, values: dict[str, Value]) -> Ask | None:
         """What has to be said before a wish is certain."""
@@ -317,12 +352,21 @@ class Builder(Ways):
             return Ask("Where shall I bring it?")
         return None
 
+    @staticmethod
+    def _states(wish: Wish) -> bool:
+        """Whether it is to be seen if something is so: "whether ...", "make sure ..."."""
+        sure = "sure" in wish.verb.split() and not wish.has("TL") and len(wish.all("K")[0].words) > 2
+        return sure or wish.all("K")[0].words[0] in ("if", "whether", "that")
+
     def _checked(self, wish: Wish, values: dict[str, Value]) -> list[Deed] | Ask:
         """Looking whether something is so."""
-        thing = values.get("T") or values.get("L")
+        thing, said = values.get("T") or values.get("L"), wish.all("K")[0]
+        if said.words[0] == "that" and any(filler.end == said.start for filler in wish.fillers):
+            return Ask(f"I do not understand what “{said.text}” belongs to. Can you say it in other words?")
         way = self.way_to_thing(thing)
         self.last_thing = thing or self.last_thing
-        looked = check(self, wish.all("K")[0].words[1:], values["K"].argument.partition(" ")[2])
+        opens = said.words[0] in ("if", "whether", "that")
+        looked = check(self, said.words[opens:], said.text.partition(" ")[2] if opens else said.text)
         return looked if isinstance(looked, Ask) else [*way, *looked.deeds]
 
     def _looked_through(self, values: dict[str, Value]) -> list[Deed] | Ask:
@@ -372,7 +416,7 @@ class Builder(Ways):
     def _turned_around(self, values: dict[str, Value]) -> Ask | None:
         """For "turn around" where an action knows but left and right: half a turn."""
         skill = self.skills.get("TURN")
-        slot = _slot(skill, "H", values) if skill is not None and values["H"].argument == "around" else None
+        slot = slot_of(skill, "H", values) if skill is not None and values["H"].argument == "around" else None
         choices = parameters_of(skill.action)[slot].choices if skill is not None and slot else ()
         if "left" not in choices or "around" in choices:
             return None
@@ -382,99 +426,12 @@ class Builder(Ways):
         values["N"] = Value("180 degrees", "180 degrees", amount=Amount(180, "degrees"))
         return None
 
-    def _direct(self, wish: Wish, skill: Skill, values: dict[str, Value]) -> list[Deed] | Ask:
-        """By the action that is made for it."""
-        arguments: dict[str, str | float] = {}
-        said: dict[str, str] = {}
-        before: list[Deed] = []
-        gloss = self.lexicon.frames[wish.frame].gloss
-        for role, value in values.items():
-            slot = _slot(skill, role, values)
-            if slot is not None and slot not in arguments:
-                given = typed(value, skill.action, slot)
-                if given is None:
-                    return Ask(f"I cannot {gloss} with “{value.said}”. Can you say it otherwise?")
-                arguments[slot], said[role] = given, value.said
-                continue
-            there = role in "SL" or wish.frame in ("CHARGE", "PUT")
-            way = self.nearing(value) if there and "GO" in self.skills else None
-            if isinstance(way, list):
-                before += way
-            elif wish.frame in _LOOSE or (value.argument == "operator" and wish.frame not in _TOLD):
-                if wish.frame in _LOOSE:
-                    self.unheeded(value.said)
-            else:
-                return way or Ask(f"I can {gloss}, but I do not know what to do about {value.said}.")
-        if set(skill.action.inputs) - set(arguments) - set(skill.action.optional):
-            return Ask(f"I can {gloss}, but I need to know more: what, or where?")
-        goes = skill.is_only_named and wish.frame in _ON_THE_SPOT
-        if ("looks" in skill.action.effects or goes) and "GO" in self.skills:
-            before += self.way_to_thing(
-                (values.get("G") if goes else None) or values.get("T") or self._named_in(wish.one("K"))
-            )
-        deed = Deed(wish.frame, skill, arguments, said)
-        if "looks" in skill.action.effects or wish.frame in ("LOOK", "FIND"):
-            self.last_check = deed
-        return [*before, deed]
 
-    def _named_in(self, filler: Filler | None) -> Value | None:
-        """The one thing of the map that a statement names, if it names one."""
-        said = {stem(word) for word in filler.words} if filler else set()
-        names = [(item, (item.description, *item.aliases)) for item in self.situation.objects]
-        found = [item for item, texts in names if any({stem(w) for w in t.split()} <= said for t in texts)]
-        if len(found) != 1:
-            return None
-        return Value(found[0].description, with_article(found[0].description), tuple(found))
-
-    def _look_for(self, values: dict[str, Value]) -> list[Deed] | Ask:
-        thing, look = values.get("T"), self.skills.get("LOOK")
-        if thing is None or look is None:
-            return Ask("I cannot look for things." if look is None else "What shall I look for?")
-        way: list[Deed] | Ask = []
-        if "L" in values or "S" in values:
-            way = self.nearing(values.get("L") or values["S"])
-        elif thing.place is not None or thing.things:
-            way = self.nearing(thing)
-        else:
-            return Ask(f"I do not know where {thing.said} is. Where shall I look?")
-        if isinstance(way, Ask):
-            return way
-        deed = Deed("FIND", look, {next(iter(look.roles.values())): thing.argument}, {"T": thing.said})
-        self.last_check = deed
-        return [*way, deed]
-
-    def _take(self, values: dict[str, Value]) -> list[Deed] | Ask:
-        thing, ask, take = values.get("T"), self.skills.get("ASK"), self.skills.get("TAKE")
-        if thing is not None and take is not None and "T" in take.roles:
-            found = self._look_for(values)
-            deed = Deed("TAKE", take, {take.roles["T"]: thing.argument}, {"T": thing.said})
-            return found if isinstance(found, Ask) else [*found[:-1], deed]
-        if thing is None or ask is None or not ask.roles:
-            return Ask("I cannot pick things up." if thing else "What shall I take?")
-        found = self._look_for(values)
-        if isinstance(found, Ask):
-            return found
-        question = f"I cannot pick things up. Please put {thing.said} on me and tell me when it is done."
-        slot = next(iter(ask.roles.values()))
-        return [*found, Deed("ASK", ask, {slot: question}, {"R": "you", "X": f"to put {thing.said} on me"})]
-
-    def _bring(self, values: dict[str, Value]) -> list[Deed] | Ask:
-        goal = values.get("R") or values.get("G")
-        taken = self._take({role: value for role, value in values.items() if role not in "RG"})
-        if isinstance(taken, Ask):
-            return taken
-        if goal is None:
-            return Ask("Where shall I bring it?")
-        way, put = self.way(goal), self.skills.get("PUT")
-        if isinstance(way, Ask):
-            return way
-        if put is None or taken[-1].frame != "TAKE":
-            return [*taken, *way]
-        said = values["T"]
-        slots = {put.roles["T"]: said.argument} if "T" in put.roles else {}
-        return [*taken, *way, Deed("PUT", put, slots, {"T": said.said})]
-
-
+_STANDING = {
+    "BRING": "TR", "TAKE": "T", "GIVE": "TR", "FIND": "T", "FOLLOW": "T", "PHOTO": "T", "GUIDE": "T",
+    "SAY": "R", "PUT": "T",
+}  # fmt: skip
+"""Who or what may stand somewhere that is said with the name."""
 _CLAUSE = frozenset(
     {"'s", "'", "how", "what", "whether", "who", "whoever", "whatever", "which", "where", "when", "rest"}
 )
@@ -487,23 +444,9 @@ _TO_ME = frozenset({"bring", "fetch", "get", "retrieve", "go", "give", "want", "
 """Verbs of bringing that mean the speaker if nobody is named."""
 _ONCE = frozenset({"SAY", "ASK", "WAIT", "TURN", "MOVE", "CONNECT", "DISC", "MIX", "ANSWER", "FOLLOW"})
 """What is not done to one thing after the other."""
-_TOLD = frozenset({"SAY", "ANSWER", "GIVE", "BRING"})
-"""What is done for somebody in particular."""
-_ON_THE_SPOT = frozenset({"LOOK", "PHOTO", "TAKE", "PUT"})
-"""What is done where the thing is: an action of which only the name is known may not drive there itself."""
-_LOOSE = frozenset({"FOLLOW", "PHOTO"})
-"""What is done all the same if a part of it has no place in the action; that is said."""
 
 
-def _slot(skill: Skill, role: str, values: dict[str, Value]) -> str | None:
-    """The parameter for a role: its own, else that of a like role that nothing else fills."""
-    if role in skill.roles:
-        return skill.roles[role]
-    like = (other for other in _ALIKE.get(role, "") if other in skill.roles and other not in values)
-    return next((skill.roles[other] for other in like), None)
-
-
-_ALIKE = {"G": "RL", "R": "G", "K": "T", "T": "KX", "S": "G", "L": "S", "H": "T"}
-"""Which other role's parameter takes what a role holds, if it is free."""
-_WAYS = {"FIND": Builder._look_for, "TAKE": Builder._take, "BRING": Builder._bring, "GIVE": Builder._bring}
+_WAYS = {"FIND": Builder.look_for, "TAKE": Builder.take, "BRING": Builder.bring, "GIVE": Builder.bring}
 """How frames are done without an action of their own."""
+_HANDLED = {"TAKE": Builder.take, "GIVE": Builder.bring, "PUT": Builder.bring}
+"""How they are done with one, where the robot has hands."""

@@ -13,6 +13,7 @@ from parley.language.builtin.reading import Reading
 from parley.language.builtin.saying import with_article
 from parley.language.builtin.structure import Part
 from parley.language.builtin.things import noun_phrase
+from parley.language.builtin.wishes import Wish
 from parley.language.dialogue.standing import read_rule
 from parley.messages.memory import MemoryEntry
 
@@ -39,14 +40,18 @@ def told_of(reading: Reading, message: str, starts: Sequence[int], lexicon: Lexi
         starts: Where each of its words begins in it.
         lexicon: Words.
     """
-    found = []
+    found: list[Told] = []
     for wish in reading.wishes:
         thing = wish.one("T")
-        if wish.frame != "BELOC" or wish.act != "told" or thing is None or not wish.has("LG"):
+        if wish.frame != "BELOC" or wish.act != "told":
             continue
-        name = _name(thing, lexicon)
+        before = message[starts[wish.start - 1] : starts[wish.start]].strip().lower() if wish.start else ""
+        name = _name(thing, lexicon) if thing is not None else (before,)
         if {*name} & (lexicon.classes["pronouns"] | lexicon.classes["persons"] | {"they"}):
+            found = _moved(found, wish, reading)
             continue  # nobody knows later who or what was meant
+        if thing is None or not wish.has("LG"):
+            continue
         start = min(starts[min([wish.start, *(filler.start for filler in wish.fillers)])], len(message))
         last = max(filler.end for filler in wish.fillers)
         text = _whole(message, start, starts[last] if last < len(starts) else len(message), lexicon)
@@ -58,6 +63,19 @@ def told_of(reading: Reading, message: str, starts: Sequence[int], lexicon: Lexi
     return tuple(found)
 
 
+def _moved(found: list[Told], wish: Wish, reading: Reading) -> list[Told]:
+    """The facts with where that is now of which the last one told: "she isn't there, she is at the desk"."""
+    places = [f for one in reading.wishes for f in one.fillers if f.role in "LG" and f.start > wish.start]
+    if not found or not places:
+        return found
+    last = found[-1]
+    owner = last.about.removeprefix("Where ").removesuffix(" is")
+    gone = _GONE.search(last.text) is not None
+    kept = found[:-1] if gone else found
+    return [*kept, Told(last.name, f"{owner} is {places[0].text}", last.about)]
+
+
+_GONE = re.compile(r"n['’]t\b|\b(?:not|no longer|never|left)\b")
 _END = re.compile(r"[.,;:!?]|\b(?:and|but|so|because|or|then|please)\b|$", re.IGNORECASE)
 _LEADING_IN = frozenset(
     {"remember", "note", "mind", "think", "believe", "guess", "yes", "no", "and", "but", "or"}

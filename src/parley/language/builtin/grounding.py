@@ -22,10 +22,11 @@ from parley.language.builtin.wishes import Wish
 from parley.language.dialogue.mentions import named
 from parley.language.dialogue.places import distance_m, in_room
 from parley.language.dialogue.speaker import name_of
+from parley.language.lexicon import load_data
 from parley.umrf.kinds import is_word_for
 from parley.world.object_map import MapObject
 
-__all__ = ["Grounder", "Value"]
+__all__ = ["Grounder", "Value", "is_somebody"]
 
 _MOVABLE = frozenset(
     {"TAKE", "BRING", "GIVE", "PUT", "FIND", "COUNT", "POUR", "CUT", "MIX", "COOK", "DO", "MAKE"}
@@ -115,14 +116,14 @@ class Grounder:
         if mention.kind == "pronoun":
             return self.last_person or Ask(f"Who is “{filler.text}”?")
         if mention.kind in ("speaker", "here"):
-            return self._speaker()
+            return self.speaker()
         name, rest = noun_phrase(filler.words, filler.head, self.lexicon)
         text = as_said(" ".join((*name, *rest)), filler.text)
         found = Value(text, with_article(text), mention.things, known_place(name, self.known))
         self.last_person = found
         return found
 
-    def _speaker(self) -> Value:
+    def speaker(self) -> Value:
         """Whoever speaks, where they said they are."""
         name = name_of(self.situation).lower().split()
         return Value("operator", "you", place=known_place(name, self.known))
@@ -149,11 +150,11 @@ class Grounder:
         if self.left_out or {*filler.words} & lexicon.classes["quantifiers"]:
             return Ask(f"I do not know which ones you mean by “{filler.text}”. Please name them.")
         if mention.kind in ("speaker", "here"):
-            return self._speaker()
+            return self.speaker()
         if mention.things:
             return self._mentioned(filler, mention)
         name, rest = noun_phrase(filler.words, filler.head, lexicon)
-        place = known_place(name, self.known)
+        place = known_place(name, self.known) if "'s" not in rest[:1] else None
         if place is not None:
             return Value(place.thing, with_article(place.thing), (), place)
         looked_for = frame in ("FIND", "COUNT", "DO", "MAKE") or rest or not objects or placed
@@ -191,7 +192,8 @@ class Grounder:
 
     def _spoken_of(self, filler: Filler, mention: Mention) -> Value | Ask | None:
         """What was spoken of before, if words like "it" and "there" mean that."""
-        small = {*filler.words} <= _BACK_TO | self.lexicon.classes["prepositions"]
+        leads = self.lexicon.classes["prepositions"] - {"outside", "out", "past"}
+        small = {*filler.words} <= _BACK_TO | leads
         each = {*filler.words} <= _BACK_TO | self.lexicon.classes["prepositions"] | {"each", "of", "one"}
         if self.bound is not None and (mention.kind == "pronoun" or each or self.names_set(filler)):
             return self.bound
@@ -313,7 +315,7 @@ class Grounder:
         name, _ = noun_phrase(fillers[0].words, fillers[0].head, self.lexicon)
         said = fillers[0].text.split()
         named = any(word[:1].isupper() and word.lower() in name for word in said)
-        return named or bool(name and is_word_for(name[-1], "person")) or value.argument == "operator"
+        return named or bool(name and is_somebody(name[-1])) or value.argument == "operator"
 
     def is_placed(self, filler: Filler) -> bool:
         """Whether a role tells one thing from others by where it is."""
@@ -420,6 +422,14 @@ class Grounder:
     def left_undone(self, text: str) -> None:
         """Something that is not wanted: it is said."""
         self.notes.append(Note(f"I leave that out: “{text}”."))
+
+
+def is_somebody(word: str) -> bool:
+    """Whether a noun is one for people."""
+    people = load_data("people")["people"]
+    return (
+        is_word_for(word, "person") or stem(word) in people or word.endswith(("man", "men", "woman", "women"))
+    )
 
 
 def _at_point(filler: Filler) -> Value | None:

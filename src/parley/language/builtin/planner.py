@@ -356,15 +356,20 @@ def _from(place: str, made: list[Deed]) -> list[Deed]:
 def _joined(deeds: list[Deed], more: list[Deed]) -> list[Deed]:
     """Deeds with more, without a plain look at what is looked at again right there for something."""
     last, first = deeds[-1] if deeds else None, more[0] if more else None
-    if (
-        last is None
-        or first is None
-        or last.frame != "LOOK"
-        or {*last.said} != {"T"}
-        or last.check is not first.check
-    ):
+    looks = ("LOOK", "FIND")
+    if last is None or first is None or last.frame not in looks or first.frame not in looks:
         return [*deeds, *more]
-    again = first.frame in ("LOOK", "FIND") and first.said != last.said
+    if {*last.said} != {"T"} or last.check is not first.check or last.skill != first.skill:
+        return [*deeds, *more]
     words = {*" ".join(map(str, first.arguments.values())).lower().split()}
-    same = "there" in words or {*" ".join(map(str, last.arguments.values())).lower().split()} <= words
-    return [*deeds[:-1], *more] if again and same else [*deeds, *more]
+    same = {*" ".join(map(str, last.arguments.values())).lower().split()} <= words
+    if first.said == last.said or not (same or "K" in first.said or "there" in words):
+        return [*deeds, *more]
+    if last.frame == "FIND" and not same:
+        return [*deeds, *more]
+    if same or "there" in words or "K" not in first.said:
+        return [*deeds[:-1], *more]
+    what = f"{first.said['K']} at {last.said['T']}"
+    told = {slot: f"{text} at {last.said['T']}" for slot, text in first.arguments.items()}
+    whole = replace(first, arguments=told, said={**first.said, "K": what})
+    return [*deeds[:-1], whole, *(replace(d, check=whole) if d.check is first else d for d in more[1:])]

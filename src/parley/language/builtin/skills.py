@@ -45,6 +45,7 @@ _ROLES = {
 }  # fmt: skip
 
 
+_THINGS = frozenset({"object", "objects", "obj", "item", "items", "thing", "things", "something", "anything"})
 _STEERED = frozenset({"distance", "angle", "direction", "number", "duration"})
 _BARE = frozenset({OTHER, "PHOTO", "WAIT", "CHARGE", "LOOK", "FOLLOW"})
 """What an action without inputs may be; any other frame says of what."""
@@ -66,9 +67,7 @@ class Skill:
     def is_for_persons(self) -> bool:
         """Whether what it is about is a person by its type."""
         name = self.roles.get("T", "")
-        if self.is_only_named and any(
-            is_word_for(word, "person") for word in words_of_name(self.action.name)
-        ):
+        if self.is_only_named and self.names_person:
             return True
         return name in self.action.inputs and parameters_of(self.action)[name].kind == "person"
 
@@ -78,14 +77,21 @@ class Skill:
         return bool({"holds", "puts"} & {*self.action.effects})
 
     @property
+    def names_person(self) -> bool:
+        """Whether its maker speaks of people, and of nothing else that it is about."""
+        said = {*words_of_name(f"{self.action.name} {self.action.description}")}
+        return any(is_word_for(word, "person") for word in said) and not said & _THINGS
+
+    @property
     def is_only_named(self) -> bool:
         """Whether its maker says nothing of it: nobody knows whether it drives to what it is about."""
         return not (self.action.description or self.action.phrases or self.action.effects)
 
     def fitting(self, person: bool) -> Skill | None:
         """This one or the other, for a person or for a thing; None if neither takes such."""
-        fits = (one for one in (self, self.other) if one is not None and one.is_for_persons is person)
-        return next(fits, None if self.is_for_persons and not person else self)
+        if self.other is not None:
+            return self if self.names_person is person else self.other
+        return None if self.is_for_persons and not person else self
 
     @property
     def takes_pose(self) -> bool:
@@ -139,7 +145,7 @@ class SkillTable:
         if first is None or first.other is not None or belief[frame] < _SURE:
             return
         second = Skill(action, frame, self._roles(action, frame), belief[frame])
-        if second.is_for_persons is not first.is_for_persons:
+        if second.names_person is not first.names_person:
             found[frame] = replace(first, other=second)
 
     @staticmethod
@@ -193,8 +199,12 @@ class SkillTable:
         size = next((n for n in range(len(words), 0, -1) if self._lexicon.exactly(words[:n])), 0)
         known = self._lexicon.exactly(words[:size]) if size else frozenset[str]()
         plain = {word for hints in self._lexicon.hints.values() for word in hints} | inputs
-        if {*words[size:]} - plain - self._lexicon.classes["prepositions"]:
-            return {}
+        plain |= self._lexicon.classes["prepositions"]
+        if not all(any(known.startswith(word) for known in plain) for word in words[size:]):
+            return {}  # "obj" is the object
+        kinds = [one.kind for one in parameters_of(action).values()]
+        if "GIVE" in known and sorted(kinds) == ["person", "thing"]:
+            return {"GIVE": 1.0}
         read = self._describe(" ".join(dict.fromkeys([*words, *sorted(inputs)])))
         found = {frame: share for frame, share in read.items() if frame in known and share >= _LEAST}
         return {frame: share / sum(found.values()) for frame, share in found.items()}
@@ -216,14 +226,17 @@ class SkillTable:
     def _roles(self, action: ActionInfo, frame: str) -> dict[str, str]:
         """Which parameter takes which role: names hint, the order decides between equals."""
         known = self._lexicon.frames.get(frame)
+        kinds = parameters_of(action)
         roles = list(_ROLES.get(frame) or (known.roles if known else "T"))
         names = [name for name in action.inputs if "::" not in name]
         if not names:
             return {}
+        types = known.roles if known else {}
         table = np.zeros((len(names), len(roles)))
         for row, name in enumerate(names):
             words = re.findall(r"[a-z]+|\d+", re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", name).lower())
             for column, role in enumerate(roles):
-                hits = sum(word in self._lexicon.hints.get(role, ()) for word in words)
+                hits: float = sum(word in self._lexicon.hints.get(role, ()) for word in words)
+                hits += 0.5 * (kinds[name].kind == "place" == types.get(role)) * (frame == "COUNT")
                 table[row, column] = hits - 0.1 * abs(row - column) - 0.02 * column
         return {roles[column]: names[row] for row, column in best_pairs(table.tolist())}

@@ -8,10 +8,9 @@ from dataclasses import replace
 from typing import Final
 
 from parley.language.builtin.decision import Ask
-from parley.language.builtin.grounding import Grounder, Value
+from parley.language.builtin.grounding import Grounder, Value, is_somebody
 from parley.language.builtin.lexicon import stem
 from parley.language.builtin.wishes import Wish
-from parley.language.lexicon import load_data
 from parley.language.stop_words import has_stop_word
 
 __all__ = ["followed", "spoken"]
@@ -52,13 +51,13 @@ def spoken(wish: Wish, values: MutableMapping[str, Value], grounder: Grounder) -
             return Ask(f"Is {person.said} somebody I can speak to? Please tell me whom you mean.")
         if _ELSEWHERE & {*words[1:]}:
             return Ask(f"I say it where I stand. Where shall I go first, and what shall I say{whom} there?")
-    if "X" not in values and verb in _GREETING:
+    if verb in _GREETING and not re.search(r"\w", values["X"].argument if "X" in values else ""):
         values["X"] = Value("hello", "hello")
     told = values.get("X")
     if told is None:
         return Ask(f"What shall I say{whom}?")
     quoted = _QUOTED.search(grounder.situation.message)
-    text = quoted[1] if quoted is not None else _ALOUD.sub("", told.argument.strip("\"'“”‘’ "))
+    text = quoted[1] if quoted is not None else _ALOUD.sub("", told.argument.strip("\"'“”‘’ .,!"))
     if quoted is None and verb not in _LITERAL | _GREETING:
         text = ""
     elif quoted is None and verb == "say":
@@ -96,9 +95,7 @@ def _is_somebody(wish: Wish, role: str, value: Value, grounder: Grounder) -> boo
     """Whether a person is meant, as far as words and map tell; a name that no map holds is somebody's."""
     fillers = wish.all(role)
     head = stem(fillers[0].words[fillers[0].head]) if fillers else ""
-    if head in load_data("people")["people"] or head.endswith(("man", "men", "woman", "women")):
-        return True
-    if grounder.is_person(fillers, value):
+    if is_somebody(head) or grounder.is_person(fillers, value):
         return True
     if value.things:
         return all(thing.description[:1].isupper() for thing in value.things)

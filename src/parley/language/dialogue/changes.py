@@ -52,7 +52,7 @@ _TAKING_BACK: Final = re.compile(
     r"leave (?:it|that)|drop (?:it|that)|cancel (?:it|that)|change of plan)\b"
 )
 _FRONT: Final = re.compile(
-    r"\b(?:first|before that|before you (?:do|go)|beforehand|on the way|on your way)\b"
+    r"\b(?:first|before (?:all )?that|before you (?:do|go)|beforehand|on the way|on your way)\b"
 )
 _INSTEAD: Final = re.compile(
     r"\b(?:no|nope|not|instead|rather|scratch|forget|(?:i|we) (?:mean|meant)|make (?:it|that)|never ?mind|"
@@ -66,6 +66,8 @@ _ADDING: Final = re.compile(
 _ALL: Final = re.compile(
     r"\b(?:all|everything|forget (?:it|that|this)|scratch|cancel|drop (?:it|that)|never ?mind)\b"
 )
+
+_ALL_OF_IT: Final = re.compile(r"\b(?:all|everything)\b|^stop\b")
 
 
 @dataclass(frozen=True, slots=True)
@@ -224,7 +226,7 @@ def change_of(
     if not names:
         return None
     if takes_back or against:
-        return _replaced(plan, against, for_[-1])
+        return _replaced(plan, against, for_[-1], text)
     return _put_in(plan, for_, text)
 
 
@@ -316,9 +318,11 @@ def _dropping(out: Sequence[Visit]) -> Change:
     )
 
 
-def _replaced(plan: Sequence[Visit], against: Sequence[Named], wanted: Named) -> Change | None:
+def _replaced(plan: Sequence[Visit], against: Sequence[Named], wanted: Named, text: str) -> Change | None:
     """Another thing in the place of one that is under way."""
     old = [visit for name in against for visit in _meant(plan, name)]
+    if not old and not against and _ALL_OF_IT.search(text) is not None:
+        return Change(question=f"Shall I drop all that is planned, or only take the {wanted.text} instead?")
     if not old and not against:
         old = [visit for visit in plan if visit.things][:1]
     if not old:

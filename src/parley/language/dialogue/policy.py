@@ -22,6 +22,7 @@ from parley.language.dialogue.changes import (
     Change,
     before_all,
     change_of,
+    reordered,
     texts_of,
     visits,
 )
@@ -43,6 +44,7 @@ from parley.language.dialogue.questions import plain, question_of
 from parley.language.dialogue.rearranging import rearranged
 from parley.language.dialogue.replies import chosen, is_thinking, names_deed
 from parley.language.dialogue.speaker import Again, answered_place, told_place
+from parley.umrf.kinds import words_of_name
 from parley.world.object_map import MapObject
 
 __all__ = ["afterwards", "beforehand", "no_facts", "only_names", "promised", "spoken_of"]
@@ -276,6 +278,8 @@ def afterwards(
         change = change_of(situation, tokens, lexicon, orders=True)
         if change is None and situation.queue and is_emergency(situation):
             change = before_all(situation)
+        if change is None and (between := _in_between(made, situation)) is not None:
+            return between
         return made if change is None else _edit(change, situation, made)
     bare = plain(tokens, (situation.robot,))
     if isinstance(made, Ask) and not made.offer and (hands := _handless(situation, reading)):
@@ -291,6 +295,32 @@ def afterwards(
     if isinstance(made, Ask | Answer) and (fact := other_fact(situation, reading, bare)) is not None:
         return Remember((fact,))
     return made
+
+
+_AROUND: Final = re.compile(
+    r"\b(?:(?P<before>before)|after|(?:done|finished) (?:with|at|in))\b", re.IGNORECASE
+)
+
+
+def _in_between(made: Do, situation: Situation) -> Decision | None:
+    """An order that is to come before or after a place of the plan: put in there; that is not done twice."""
+    said, plan = _AROUND.search(situation.message), visits(situation)
+    shown = [deed for deed in made.deeds if not deed.hidden and deed.frame == "GO"]
+    if said is None or not plan or len(shown) < 2 or any(deed.check for deed in made.deeds):
+        return None
+    edge = shown[-1] if said["before"] else shown[0]
+    first = made.deeds.index(edge) - (len(made.deeds) > 1 and made.deeds[made.deeds.index(edge) - 1].hidden)
+    rest = tuple(d for at, d in enumerate(made.deeds) if not first <= at <= made.deeds.index(edge))
+    place = {str(value).lower() for deed in made.deeds[first:][:2] for value in deed.arguments.values()}
+    meant = [at for at, visit in enumerate(plan) if place & {t.description.lower() for t in visit.things}]
+    behind = plan[meant[0] :] if said["before"] and meant else plan[meant[-1] + 1 :] if meant else []
+    if not meant or (edge is made.deeds[-1]) is not bool(said["before"]):
+        return None
+    names = {thing.description for visit in plan for thing in visit.things}
+    if names & {str(value) for deed in rest for value in deed.arguments.values()}:
+        return Ask("That is in my plan already. Shall I do it in another order?")
+    change = reordered(plan, [], behind, "instead", said="All right.")
+    return _edit(change, situation, replace(made, deeds=rest))
 
 
 def _asked_again(
@@ -319,13 +349,15 @@ _NONE: Final = re.compile(
 _BY_HAND: Final = {
     "GIVE": ("give", "hand"),
     "PUT": ("put", "place", "lay"),
-    "TAKE": ("pick", "take", "grasp"),
+    "TAKE": ("pick", "take", "grasp", "grab"),
 }
 
 
 def _handless(situation: Situation, reading: Reading) -> str:
     """That the robot has no hands, where an order that is asked about needs some."""
-    words = {word for info in situation.catalogue for word in info.description.lower().split()}
+    words = {
+        word for info in situation.catalogue for word in words_of_name(f"{info.name} {info.description}")
+    }
     needed = [wish for wish in reading.wishes if wish.act == "order" and wish.frame in _BY_HAND]
     if not situation.catalogue or not needed or words & {*_BY_HAND[needed[0].frame]}:
         return ""

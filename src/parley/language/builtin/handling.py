@@ -1,0 +1,115 @@
+"""What is taken, carried and handed over: by actions of the robot's own, else with the help of a person."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from parley.language.builtin.decision import Ask, Deed
+from parley.language.builtin.fillers import Filler
+from parley.language.builtin.grounding import Value, is_somebody
+from parley.language.builtin.skills import Skill
+from parley.language.builtin.ways import Ways
+
+__all__ = ["Handling"]
+
+
+@dataclass(slots=True)
+class Handling(Ways):
+    """Makes the deeds by which things come from one place to another."""
+
+    held: list[str] = field(default_factory=list)
+    """What the robot has taken in this message."""
+    sought: tuple[str, str] = ("", "")
+    """Where and what was looked for last."""
+
+    def look_for(self, values: Mapping[str, Value]) -> list[Deed] | Ask:
+        """The way to something, and a look for it."""
+        thing, find = values.get("T"), self.finding()
+        if thing is None or find is None:
+            return Ask("I cannot look for things." if find is None else "What shall I look for?")
+        way: list[Deed] | Ask = []
+        if "L" in values or "S" in values:
+            way = self.nearing(values.get("L") or values["S"])
+        elif thing.place is not None or thing.things:
+            way = self.nearing(thing)
+        elif self.sought != (self.at, thing.argument):
+            return Ask(f"I do not know where {thing.said} is. Where shall I look?")
+        if isinstance(way, Ask) or self.sought == (self.at, thing.argument):
+            return way
+        deed = Deed("FIND", find, {next(iter(find.roles.values())): thing.argument}, {"T": thing.said})
+        self.last_check, self.sought = deed, (self.at, thing.argument)
+        return [*way, deed]
+
+    def finding(self) -> Skill | None:
+        """The action by which things are found."""
+        find = self.skills.get("FIND")
+        find = find.fitting(person=False) if find is not None else None
+        return find if find is not None and find.roles else self.skills.get("LOOK")
+
+    def take(self, values: Mapping[str, Value]) -> list[Deed] | Ask:
+        """Taking something where it is; by hand of a person if the robot has none."""
+        thing, skill, ask = values.get("T"), self.skills.get("TAKE"), self.skills.get("ASK")
+        slot = skill.roles.get("T") if skill is not None else None
+        if thing is None or not (slot or (ask is not None and ask.roles)):
+            return Ask("I cannot pick things up." if thing else "What shall I take?")
+        found = self.look_for(values)
+        if isinstance(found, Ask):
+            return found
+        self.held.append(thing.argument)
+        if skill is not None and skill.is_by_hand:
+            found = [deed for deed in found if deed.frame == "GO"]  # it sees for itself
+        if skill is not None and slot:
+            return [*found, Deed("TAKE", skill, {slot: thing.argument}, {"T": thing.said})]
+        assert ask is not None
+        question = f"I cannot pick things up. Please put {thing.said} on me and tell me when it is done."
+        asked = {next(iter(ask.roles.values())): question}
+        return [*found, Deed("ASK", ask, asked, {"R": "you", "X": f"to put {thing.said} on me"})]
+
+    def bring(self, values: Mapping[str, Value]) -> list[Deed] | Ask:
+        """Taking something, the way to who or what it is for, and handing it over if an action does that."""
+        if not {*"RG"} & {*values} and "TAKE" in self.skills:
+            if self.behind is not None and self.behind.frame in ("BRING", "GIVE", "PUT"):
+                return self.take(values)  # "fetch the box and give it to Kim"
+            values = {**values, "R": self.speaker()}
+        goal, thing = values.get("R") or values.get("G"), values.get("T")
+        if goal is None or thing is None:
+            return Ask("Where shall I bring it?" if thing is not None else "What shall I bring?")
+        if thing.things and thing.things == goal.things:
+            return Ask(f"What shall I bring to {goal.said}?")
+        taken: list[Deed] | Ask = []
+        if thing.argument not in self.held:
+            taken = self.take(
+                {role: values[role] for role in ("TS" if "R" in values else "TSL") if role in values}
+            )
+        way = self._way_to(goal, values) if not isinstance(taken, Ask) else []
+        if isinstance(taken, Ask) or isinstance(way, Ask):
+            return taken if isinstance(taken, Ask) else way
+        over = (self.skills.get("GIVE") if "R" in values else None) or self.skills.get("PUT")
+        if "TAKE" not in self.skills or over is None or "T" not in over.roles:
+            return [*taken, *way] if way else Ask(f"I cannot hand over {thing.said}. Where shall I bring it?")
+        role = "R" if "R" in values else "G"
+        slot = over.roles.get(role)
+        given = {over.roles["T"]: thing.argument, **({slot: goal.argument} if slot else {})}
+        return [*taken, *way, Deed(over.frame, over, given, {"T": thing.said, role: goal.said})]
+
+    def _way_to(self, goal: Value, values: Mapping[str, Value]) -> list[Deed] | Ask:
+        """The way to who or what something is for; somebody who may be anywhere is looked for."""
+        if "TAKE" not in self.skills or "R" not in values:
+            return self.way(goal)
+        if (where := values.get("L") or values.get("G")) is not None:
+            return self.nearing(where)
+        if goal.place is not None or goal.things:
+            return self.nearing(goal)
+        return [] if goal.argument == "operator" else self.met(goal, None) or self.way(goal)
+
+    def met(self, who: Value, filler: Filler | None) -> list[Deed]:
+        """A look for somebody who is only described: "the man in the hall"; a name is called."""
+        find = self.skills.get("FIND")
+        find = find.fitting(person=True) if find is not None else None
+        described = filler is None or (
+            is_somebody(filler.words[filler.head]) and not {*filler.words} & {"everyone", "everybody", "all"}
+        )
+        if find is None or not find.names_person or not described or who.argument == "operator":
+            return []
+        return [Deed("FIND", find, {next(iter(find.roles.values())): who.argument}, {"T": who.said})]
