@@ -56,6 +56,8 @@ class Node:
 
     name: ClassVar[str] = "node"
     """Who speaks, in rejections and logs."""
+    apart: ClassVar[bool] = False
+    """Whether others know it by that name: a network that has names for nodes shows it as one."""
     speaks: SpokenLanguage = "en"
     """The language of the sentences it says of its own accord; set before it is opened."""
 
@@ -70,7 +72,8 @@ class Node:
 
     async def __aenter__(self) -> Self:
         self._closed = False
-        self.transport = self.transport.named(self.name)
+        if self.apart:
+            self.transport = self.transport.named(self.name)
         self.opened.push_async_callback(self._close_ends)
         try:
             await self.open()

@@ -57,6 +57,7 @@ class MemoryNode(Node):
     """
 
     name: ClassVar[str] = "memory"
+    apart = True
 
     def __init__(
         self,

@@ -89,6 +89,7 @@ class ChatInterface(Node):
     """
 
     name: ClassVar[str] = "chat_interface"
+    apart = True
 
     def __init__(
         self,

@@ -50,6 +50,7 @@ class DisplayInterface(Node):
     """
 
     name: ClassVar[str] = "display_interface"
+    apart = True
 
     def __init__(
         self,

@@ -54,6 +54,7 @@ class UmrfPlanner(Node):
     """
 
     name: ClassVar[str] = "umrf_planner"
+    apart = True
 
     def __init__(
         self,

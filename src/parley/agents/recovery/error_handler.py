@@ -79,6 +79,7 @@ class ErrorHandler(Node):
     """
 
     name: ClassVar[str] = "error_handler"
+    apart = True
 
     def __init__(
         self,

@@ -34,6 +34,8 @@ class _Rosout:
         match told.get("exc_info"):
             case BaseException() as error:
                 text += "\n" + "".join(traceback.format_exception(error)).rstrip()
+            case True:
+                text += "\n" + traceback.format_exc().rstrip()
             case (_, BaseException() as error, _):
                 text += "\n" + "".join(traceback.format_exception(error)).rstrip()
         # ROS wants one severity for each place in code.

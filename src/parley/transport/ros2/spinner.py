@@ -10,6 +10,7 @@ from typing import Any, Final
 import rclpy
 import structlog
 from rclpy.context import Context
+from rclpy.exceptions import NameValidationException
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.signals import SignalHandlerOptions
 
@@ -65,7 +66,7 @@ class Spinner:
                 name, namespace=namespace, context=self.context,
                 allow_undeclared_parameters=True, automatically_declare_parameters_from_overrides=True,
             )  # fmt: skip
-        except (RuntimeError, ValueError) as error:
+        except (RuntimeError, ValueError, NameValidationException) as error:
             raise UnavailableError(f"ROS does not take the node {name}: {error}") from error
         self._executor.add_node(node)
         self.nodes.add((node.get_name(), node.get_namespace()))

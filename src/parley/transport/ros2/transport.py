@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import re
 from collections.abc import Awaitable, Callable, Sequence
 from contextlib import suppress
 from types import TracebackType
@@ -187,11 +188,13 @@ class Ros2Transport:
 
     def named(self, name: str) -> Ros2Transport:
         """See `Transport.named`: a node of its own, in the same thread."""
-        known = self if name == self._name else self._named.get(name)
+        spelt = re.sub(r"\W", "_", name, flags=re.ASCII)
+        known = self if spelt == self._name else self._named.get(spelt)
         if known is None:
-            known = self._named[name] = Ros2Transport(node=name, namespace=self._namespace)
+            known = Ros2Transport(node=spelt, namespace=self._namespace)
             known._named, known._graph, known._spinner = self._named, self._graph, self._spinner
             known._begin()
+            self._named[spelt] = known
         return known
 
     def endpoints(self) -> tuple[Endpoint, ...]:
