@@ -6,9 +6,9 @@ Between these and `Engines` there is nothing but topics and services.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from contextlib import AsyncExitStack
-from typing import Final, Literal, TypeVar
+from typing import Final, Literal, TypeVar, get_args
 
 from parley.agents.audit_log import AuditLog
 from parley.agents.base import Node
@@ -52,7 +52,12 @@ from parley.transport.base import Transport
 from parley.world.geometry import Pose2D
 from parley.world.telling import Surroundings
 
-__all__ = ["Nodes"]
+__all__ = ["NODES", "NodeName", "Nodes"]
+
+NodeName = Literal["chat_interface", "umrf_planner", "error_handler", "memory", "display_interface"]
+"""As the thesis calls them."""
+
+NODES: Final[tuple[NodeName, ...]] = get_args(NodeName)
 
 N = TypeVar("N", bound=Node)
 
@@ -68,6 +73,7 @@ class Nodes(OpenedTogether):
         language: Understands people.
         clock: The robots' time, or that on the wall where they are in another process.
         robots: The names of robots that are known to come.
+        only: Which of them; the others are in other processes. Rules, the log and calls go with the planner.
     """
 
     def __init__(
@@ -78,8 +84,10 @@ class Nodes(OpenedTogether):
         language: Language,
         clock: Clock,
         robots: Sequence[str] = (),
+        only: Collection[NodeName] = NODES,
     ) -> None:
         super().__init__()
+        self._only = frozenset(only)
         self._transport, self._config, self._clock = transport, config, clock
         self._language, self._robots = language, tuple(robots)
         self.rules = RuleBook(clock)
@@ -105,13 +113,38 @@ class Nodes(OpenedTogether):
         Raises:
             TimeoutError: One does not come.
         """
-        assert self._planner is not None
+        if self._planner is None:
+            return
         async with asyncio.timeout(MET_WITHIN_S):
             for robot in robots:
                 await self.sites.of(robot)
                 await self._planner.met(robot)
 
     async def _open(self, stack: AsyncExitStack) -> None:
+        enter, config, only = stack.enter_async_context, self._config, self._only
+        await enter(self.sites)
+        if "memory" in only:
+            store = self.store = await enter(
+                await MemoryStore.open(config.memory_file or ":memory:", self._clock)
+            )
+            await enter(MemoryNode(self._transport, store, self._language, meanings=self._meanings(store)))
+        if "display_interface" in only:
+            display = DisplayInterface(
+                self._transport,
+                self._clock,
+                quality=config.display_quality,
+                min_interval_s=config.display_interval_s,
+                feeds=config.display_feeds,
+            )
+            await enter(display)
+            await enter(MapService(self._transport, self.sites.by_robot))
+        if "umrf_planner" in only:
+            await self._open_planner(stack)
+        else:
+            await self._open_talk(stack, None)
+
+    async def _open_planner(self, stack: AsyncExitStack) -> None:
+        """The planner with all that goes with plans, and who talks, if that is in this process too."""
         enter, config, transport, clock = (
             stack.enter_async_context,
             self._config,
@@ -119,20 +152,8 @@ class Nodes(OpenedTogether):
             self._clock,
         )
         keeper = RuleKeeper(self.rules, config.rules_path)
-        self.store = await enter(await MemoryStore.open(config.memory_file or ":memory:", clock))
         audit = await enter(await AuditStore.open(config.audit_file or ":memory:", clock))
         await enter(AuditLog(transport, audit, clock, months=config.audit_months, tell=self.tell))
-        await enter(self.sites)
-        await enter(MemoryNode(transport, self.store, self._language, meanings=self._meanings(self.store)))
-        await enter(
-            DisplayInterface(
-                transport,
-                clock,
-                quality=config.display_quality,
-                min_interval_s=config.display_interval_s,
-                feeds=config.display_feeds,
-            )
-        )
         proposals = await enter(await ProposalStore.open(config.proposals_file or ":memory:", clock))
         planner = self._planner = UmrfPlanner(
             transport,
@@ -146,9 +167,7 @@ class Nodes(OpenedTogether):
             begin_for=self.rules.act_for,
             met=self._on_met,
         )
-        rules = RuleTalk(self.rules, keeper, self.sites.areas)
-        incidents = await enter(await IncidentStore.open(config.incidents_file or ":memory:", clock))
-        await self._open_talk(stack, rules, incidents)
+        incidents = await self._open_talk(stack, RuleTalk(self.rules, keeper, self.sites.areas))
         # Only now: whoever is told a plan may answer at once, and has to be heard.
         await enter(self._speaking(planner))
         await enter(self._speaking(Lookout(transport, clock)))
@@ -157,47 +176,57 @@ class Nodes(OpenedTogether):
         await enter(self._speaking(absent))
         await enter(self._speaking(self._notices))
         await enter(self._speaking(Calls(transport, clock, config.calls, tell=self.tell)))
-        for text in (self.store.notice, incidents.notice, proposals.notice):
-            self.tell(text, "error")
+        for told in (self.store, incidents, proposals):
+            self.tell(told.notice if told is not None else "", "error")
         for rule in keeper.left_over:
             self.tell(left_over_rule(rule))
         await keeper.note_asked(())
-        await enter(MapService(transport, self.sites.by_robot))
         ground, maps = self._language.ground, self.sites.by_robot
         await enter(RuleNode(transport, keeper, self.rules, clock, ground=ground, maps=maps))
         planner.offer_again()
 
-    async def _open_talk(self, stack: AsyncExitStack, rules: RuleTalk, incidents: IncidentStore) -> None:
-        config = self._config
-        recovery = ErrorHandler(
-            self._transport,
-            self._language,
-            self._clock,
-            objects=self.sites.objects,
-            max_attempts=config.max_attempts,
-            language_timeout_s=config.language_timeout_s,
-            incidents=incidents,
-            rules=rules,
-        )
-        await stack.enter_async_context(self._speaking(recovery))
-        self._incidents = list(recovery.left_over)
-        missions = await stack.enter_async_context(
-            await MissionStore.open(config.missions_file or ":memory:", self._clock)
-        )
-        chat = ChatInterface(
-            self._transport,
-            self._language,
-            self._clock,
-            objects=self.sites.objects,
-            history_exchanges=config.history_exchanges,
-            language_timeout_s=config.language_timeout_s,
-            rules=rules,
-            rooms=self.sites.rooms,
-            soon=self.sites.soon,
-            survey=self._survey,
-            missions=missions,
-        )
-        await stack.enter_async_context(self._speaking(chat))
+    async def _open_talk(self, stack: AsyncExitStack, rules: RuleTalk | None) -> IncidentStore | None:
+        """Who talks to people.
+
+        Args:
+            stack: Where it is opened.
+            rules: Hears what is said about rules; None: that is in another process, and set there.
+        """
+        config, enter = self._config, stack.enter_async_context
+        incidents: IncidentStore | None = None
+        if "error_handler" in self._only:
+            incidents = await enter(
+                await IncidentStore.open(config.incidents_file or ":memory:", self._clock)
+            )
+            recovery = ErrorHandler(
+                self._transport,
+                self._language,
+                self._clock,
+                objects=self.sites.objects,
+                max_attempts=config.max_attempts,
+                language_timeout_s=config.language_timeout_s,
+                incidents=incidents,
+                rules=rules,
+            )
+            await enter(self._speaking(recovery))
+            self._incidents = list(recovery.left_over)
+        if "chat_interface" in self._only:
+            missions = await enter(await MissionStore.open(config.missions_file or ":memory:", self._clock))
+            chat = ChatInterface(
+                self._transport,
+                self._language,
+                self._clock,
+                objects=self.sites.objects,
+                history_exchanges=config.history_exchanges,
+                language_timeout_s=config.language_timeout_s,
+                rules=rules,
+                rooms=self.sites.rooms,
+                soon=self.sites.soon,
+                survey=self._survey,
+                missions=missions,
+            )
+            await enter(self._speaking(chat))
+        return incidents
 
     def _speaking(self, node: N) -> N:
         """Let a node say its own sentences in the language that was chosen."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from contextlib import AbstractAsyncContextManager, AsyncExitStack
 from typing import TYPE_CHECKING, Final, Literal
 
@@ -26,7 +26,7 @@ from parley.messages import ros, topics
 from parley.messages.status import Rejection, RejectionProblem
 from parley.messages.wire import to_string
 from parley.network import transport_of
-from parley.nodes import Nodes
+from parley.nodes import NODES, NodeName, Nodes
 from parley.opening import OpenedTogether
 from parley.robots.base import Robot
 from parley.robots.fleet import Fleet, OwnFleet
@@ -68,6 +68,7 @@ class System(OpenedTogether):
         actions: What the robots can do.
         part: What of it is in this process; `agents` takes neither a world nor robots.
         only: Names of those robots that are in this process; empty: all.
+        nodes: Which of the nodes are in this process, if any is.
     """
 
     def __init__(
@@ -83,9 +84,10 @@ class System(OpenedTogether):
         actions: Sequence[ActionSpec] = BUILTIN_ACTIONS,
         part: Part = "all",
         only: Sequence[str] = (),
+        nodes: Collection[NodeName] = NODES,
     ) -> None:
         super().__init__()
-        self.config, self._part = config, part
+        self.config, self._part, self._which = config, part, nodes
         self.transport: Transport = transport or transport_of(config, node=f"parley_{part}")
         self.usage = Usage()
         """What language models took, if any is asked."""
@@ -180,10 +182,16 @@ class System(OpenedTogether):
             await enter(self.language)
         if self._part != "robots":
             self._nodes = Nodes(
-                self.transport, config, language=self.language, clock=self.clock, robots=self.robot_names
+                self.transport,
+                config,
+                language=self.language,
+                clock=self.clock,
+                robots=self.robot_names,
+                only=self._which,
             )
             await enter(self._nodes)
-        await self._listen_to_stops(stack)
+        if self._part != "agents" or "umrf_planner" in self._which:
+            await self._listen_to_stops(stack)
         if self._fleet is not None:
             self._engines = Engines(
                 self.transport,

@@ -18,6 +18,7 @@ from parley.errors import ConfigError
 from parley.robots.own import RobotBase
 from parley.site import Site
 from parley.system import System
+from parley.transport.base import Transport
 
 __all__ = ["command", "system_of_robots"]
 
@@ -50,7 +51,9 @@ def command(
     on_loop(run_system(system_of_robots(settings, world, robot or [], kind)))
 
 
-def system_of_robots(settings: SystemConfig, world: str, robots: list[str], kind: str) -> System:
+def system_of_robots(
+    settings: SystemConfig, world: str, robots: list[str], kind: str, transport: Transport | None = None
+) -> System:
     """The robots of a place with their engines.
 
     Args:
@@ -58,6 +61,7 @@ def system_of_robots(settings: SystemConfig, world: str, robots: list[str], kind
         world: A demonstration, or a folder; empty: nowhere.
         robots: Their names; empty: all that the world simulates.
         kind: A class for them, instead of simulated ones.
+        transport: None: as the settings say.
 
     Raises:
         ConfigError: There is no such place, robot or class, or too little is said.
@@ -67,13 +71,14 @@ def system_of_robots(settings: SystemConfig, world: str, robots: list[str], kind
         if site.world is None:
             raise ConfigError("name a --world that can be simulated, or the --class of your robots")
         return System(
-            site.world, settings, occupancy=site.occupancy, objects=site.objects, part="robots", only=robots
-        )
+            site.world, settings, occupancy=site.occupancy, objects=site.objects, part="robots",
+            only=robots, transport=transport,
+        )  # fmt: skip
     made = [made_robot(found_class(kind, settings), name) for name in robots or ["robot"]]
     own = [robot for robot in made if isinstance(robot, RobotBase)]
     if len(own) < len(made):
         raise ConfigError(f"{kind} makes no RobotBase")
     return System(
         None, settings, robots=own, occupancy=site.occupancy, objects=site.objects, actions=BUILTIN_ACTIONS,
-        part="robots",
+        part="robots", transport=transport,
     )  # fmt: skip

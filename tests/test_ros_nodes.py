@@ -1,0 +1,45 @@
+"""What the nodes of ROS are told, and the package that starts them; none of it needs ROS."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from parley.cli.ros_nodes import NAMES, Parameters
+from parley.errors import ConfigError
+
+PACKAGE = Path(__file__).parents[1] / "ros2" / "parley_ros"
+
+
+def test_parameters_become_settings_and_those_of_ros_are_passed_over(tmp_path: Path) -> None:
+    (tmp_path / "parley.yaml").write_text("approval: ask_first\nnetwork: {domain: 3}\n", encoding="utf-8")
+    told = Parameters.told({
+        "config": str(tmp_path / "parley.yaml"), "data": str(tmp_path), "actor_name": "Kim, Ada",
+        "without": "", "use_sim_time": False,
+    })  # fmt: skip
+    assert (told.actor_name, told.without) == (("Kim", "Ada"), ())
+    settings = told.settings(["--ros-args", "-r", "__ns:=/ward"])
+    assert (settings.approval, settings.data_dir) == ("ask_first", tmp_path)
+    assert settings.network is not None
+    assert settings.network.ros2 is not None
+    assert settings.network.ros2.arguments == ("--ros-args", "-r", "__ns:=/ward")
+    assert (settings.network.domain, settings.network.rosbridge) == (0, None)
+
+
+@pytest.mark.parametrize(("name", "value"), [("worlds", "warehouse"), ("speed", -1.0)])
+def test_a_parameter_that_is_unknown_or_wrong_is_refused_by_name(name: str, value: object) -> None:
+    with pytest.raises(ConfigError, match=f"parameter {name}: .*robot_class"):
+        Parameters.told({name: value})
+
+
+def test_the_package_has_an_executable_for_each() -> None:
+    setup = (PACKAGE / "setup.py").read_text(encoding="utf-8")
+    executables = re.search(r"EXECUTABLES = \((.*?)\)", setup, re.DOTALL)
+    assert executables is not None
+    assert set(re.findall(r'"(\w+)"', executables[1])) == set(NAMES)
+    starts = (PACKAGE / "parley_ros" / "nodes.py").read_text(encoding="utf-8")
+    assert dict(re.findall(r'^(\w+) = partial\(main, "(\w+)"\)$', starts, re.MULTILINE)) == {
+        name: name for name in NAMES
+    }
