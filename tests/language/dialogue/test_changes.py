@@ -186,3 +186,35 @@ async def test_what_comes_before_or_after_a_place_of_the_plan_is_put_in_there(
     gone = dropped(answer)
     kept = [call for at, call in enumerate(situation.queue) if at not in gone]
     assert goals(answer.model_copy(update={"queue": (*kept, *answer.queue)})) == order
+
+
+@pytest.mark.parametrize(
+    ("message", "looks"),
+    [("no wait, go to the lamp instead", ["gate"]), ("no wait, the lamp", ["lamp", "gate"])],
+)
+async def test_a_look_goes_with_the_way_to_what_is_looked_at(message: str, looks: list[str]) -> None:
+    look = ActionInfo(
+        name="Look", description="Look at something.", inputs={"what": "string"}, effects=("looks",)
+    )
+    looking = [
+        PlanStep(
+            action=ActionCall.model_validate(
+                {"Look": {"input_parameters": {"what": {"pvf_type": "string", "pvf_value": name}}}}
+            ),
+            label=f"Look at “{name}”",
+            state="queued",
+        )
+        for name in ("box", "gate")
+    ]
+    box, gate = steps("box"), steps("box", "gate")[2:]
+    plan = (*box, looking[0], *gate, looking[1])
+    was = given(message, "box")
+    said = replace(
+        was,
+        catalogue=(FIND, GO, look),
+        queue=tuple(step.action for step in plan if step.state != "finished"),
+        dialogue=replace(was.dialogue, steps=plan),
+    )
+    answer = await ENGINE.interpret(said)
+    assert [str(c.input_parameters["what"].value) for c in answer.queue if c.name == "Look"] == looks
+    assert goals(answer) == ["lamp", "gate"]

@@ -246,7 +246,7 @@ def _with_order(
     if not old and _FRONT.search(text) is not None and not takes_back:
         return reordered(plan, [], plan, "front")
     if not old and takes_back:
-        old = list(plan) if _ALL.search(text) is not None else list(plan[:1])
+        old = list(plan) if _ALL.search(text) is not None else _deed_of(plan, plan[0])
     if not old:
         return None
     whole = len(old) == len(plan) > 1
@@ -311,6 +311,13 @@ def _left_out(plan: Sequence[Visit], against: Sequence[Named]) -> Change | None:
     return _dropping(out)
 
 
+def _deed_of(plan: Sequence[Visit], first: Visit) -> list[Visit]:
+    """A step, and those next to it that are about the same: the way to a thing, and a look at it."""
+    ids = {item.id for item in first.things}
+    behind = plan[plan.index(first) + 1 :]
+    return [first, *itertools.takewhile(lambda visit: ids & {item.id for item in visit.things}, behind)]
+
+
 def _dropping(out: Sequence[Visit]) -> Change:
     said = ", nor ".join(visit.said for visit in out)
     return Change(
@@ -334,13 +341,14 @@ def _replaced(plan: Sequence[Visit], against: Sequence[Named], wanted: Named, te
     if any(target in visit.things for visit in plan if visit not in old[:1] or not against):
         asked = f"The {target.description} is in my plan already. Shall I go there first, or leave it out?"
         return Change(question=asked)
-    calls = moved(old[0], target)
-    if calls is None or target in old[0].things:
+    deed = _deed_of(plan, old[0])
+    calls = tuple(call for visit in deed for call in moved(visit, target) or ())
+    if moved(old[0], target) is None or target in old[0].things:
         return None
     other = _reason(old[0].said, _names_of(old[0]), target)
     other = other if other != old[0].said else f"take the {target.description}"
     said = f"I do not {old[0].said}. Instead I {other}."
-    return reordered(plan, old[:1], _behind(plan, old[:1]), "instead", calls, said)
+    return reordered(plan, deed, _behind(plan, deed), "instead", calls, said)
 
 
 def moved(old: Visit, target: MapObject) -> tuple[ActionCall, ...] | None:
