@@ -12,6 +12,7 @@ export function useStickToEnd(entries: readonly ChatEntry[], waiting: number, sh
   const keepFrom = useRef(0);
   const scroller = useRef<HTMLDivElement>(null);
   const stick = useRef(true);
+  const stoodAt = useRef(0);
   const [atEnd, setAtEnd] = useState(true);
   const [seen, setSeen] = useState(0);
   const newest = entries.at(-1)?.seq ?? 0;
@@ -21,13 +22,18 @@ export function useStickToEnd(entries: readonly ChatEntry[], waiting: number, sh
     const box = scroller.current;
     if (!box) return undefined;
     const look = () => {
-      const end = box.scrollHeight - box.scrollTop - box.clientHeight < NEAR_PX;
+      const isNear = box.scrollHeight - box.scrollTop - box.clientHeight < NEAR_PX;
+      // Only who goes up leaves the end: a picture that has just come moves the end away from the reader.
+      const end = isNear || (stick.current && box.scrollTop >= stoodAt.current);
+      stoodAt.current = box.scrollTop;
       stick.current = end;
       setAtEnd(end);
       if (end) setSeen(Number.MAX_SAFE_INTEGER);
     };
     const onResize = () => {
-      if (stick.current) box.scrollTop = box.scrollHeight;
+      if (!stick.current) return;
+      box.scrollTop = box.scrollHeight;
+      stoodAt.current = box.scrollTop;
     };
     const watcher = new ResizeObserver(onResize);
     watcher.observe(box);
@@ -43,7 +49,10 @@ export function useStickToEnd(entries: readonly ChatEntry[], waiting: number, sh
   useLayoutEffect(() => {
     if (waiting > before.current) stick.current = true; // what one says oneself one wants to see
     before.current = waiting;
-    if (stick.current && scroller.current) scroller.current.scrollTop = scroller.current.scrollHeight;
+    const box = scroller.current;
+    if (!stick.current || !box) return;
+    box.scrollTop = box.scrollHeight;
+    stoodAt.current = box.scrollTop;
   }, [entries, waiting]);
 
   useLayoutEffect(() => {

@@ -1,7 +1,7 @@
 import { useTranslation } from 'react-i18next';
 
 import { useWorld } from '@/live/store';
-import type { ParameterView, StepView } from '@/live/types';
+import type { AbilityView, ParameterView, StepView } from '@/live/types';
 import type { World } from '@/live/world';
 import { clockTime, inWords } from '@/ui/words';
 
@@ -12,21 +12,22 @@ import { rowsOf, type Row } from './parameters';
 /** What a step was given, what it found out, and under what circumstances. */
 export function Details({ line: { step, finding } }: { line: Line }) {
   const { t } = useTranslation('plan');
-  const description = useWorld((world) => descriptionOf(world, step.action));
+  const known = useWorld((world) => actionOf(world, step.action));
   return (
     <div className={css.details}>
-      <p className={css.action}>{description || inWords(step.action)}</p>
-      <Values title={t('given')} parameters={step.inputs} />
+      <p className={css.action}>{known?.description || inWords(step.action)}</p>
+      <Values title={t('given')} parameters={step.inputs} about={known?.parameters} />
       <Values title={t('found')} parameters={[...finding.flatMap((one) => one.outputs), ...step.outputs]} />
       <Circumstances step={step} />
     </div>
   );
 }
 
-/** What robots say of an action, in a sentence; empty if none of them does. */
-function descriptionOf(world: World, action: string): string {
-  const known = Object.values(world.robots).flatMap((robot) => robot.catalogue);
-  return known.find((one) => one.name === action)?.description ?? '';
+/** What robots say of an action. */
+function actionOf(world: World, action: string): AbilityView | undefined {
+  return Object.values(world.robots)
+    .flatMap((robot) => robot.catalogue)
+    .find((one) => one.name === action);
 }
 
 /** Under what circumstances it was done. */
@@ -54,13 +55,19 @@ function Fact({ name, value }: { name: string; value: string }) {
   );
 }
 
-function Values({ title, parameters }: { title: string; parameters: readonly ParameterView[] }) {
+interface ValuesProps {
+  title: string;
+  parameters: readonly ParameterView[];
+  about?: AbilityView['parameters'] | undefined;
+}
+
+function Values({ title, parameters, about }: ValuesProps) {
   if (parameters.length === 0) return null;
   return (
     <>
       <p className={css.title}>{title}</p>
       <dl className={css.rows}>
-        {rowsOf(parameters).map((row) => (
+        {rowsOf(parameters, about).map((row) => (
           <Value key={row.name} row={row} />
         ))}
       </dl>

@@ -6,9 +6,10 @@ import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
 import { Icon } from '@/ui/icon';
 import { TextField } from '@/ui/text-field';
-import { inWords, sentence } from '@/ui/words';
+import { sentence } from '@/ui/words';
 
 import { inputsOf, type DraftStep } from './editing';
+import { labelOf } from './parameters';
 import { PlacePicker, type Places } from './place-picker';
 import css from './plan-editor.module.css';
 
@@ -62,7 +63,7 @@ interface InputProps {
 /** A field of the kind that the input is of; places and closed lists are chosen from. */
 function Input({ input, about, places, onChange }: InputProps) {
   const { t } = useTranslation('plan');
-  const label = labelOf(input, about, t('place'));
+  const label = named(input, about, t('place'));
   const value = String(input.value ?? '');
   if (about?.kind === 'place' && places.names.length > 0) {
     return (
@@ -107,12 +108,12 @@ interface ListedProps {
 function Listed({ label, value, listed, onChange }: ListedProps) {
   const { t } = useTranslation('plan');
   const options = value && !listed.includes(value) ? [value, ...listed] : listed;
-  const named = options.map((one) => ({ id: one, label: sentence(one) }));
-  return <Choice label={label} placeholder={t('choose')} value={value || null} options={named} onChange={onChange} />;
+  const offered = options.map((one) => ({ id: one, label: sentence(one) }));
+  return <Choice label={label} placeholder={t('choose')} value={value || null} options={offered} onChange={onChange} />;
 }
 
-function labelOf(input: ParameterView, about: ParameterInfo | undefined, place: string): string {
+function named(input: ParameterView, about: ParameterInfo | undefined, place: string): string {
   if (about?.kind === 'place') return place;
-  const name = inWords(input.name);
-  return about?.unit ? `${name} (${about.unit})` : name;
+  const label = labelOf(input.name, about);
+  return about?.unit ? `${label} (${about.unit})` : label;
 }

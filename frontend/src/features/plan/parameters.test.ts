@@ -1,8 +1,9 @@
 import { describe, expect, it } from 'vitest';
 
 import { step } from '@/live/samples';
+import type { ParameterInfo } from '@/live/types';
 
-import { rowsOf, withReceived } from './parameters';
+import { labelOf, rowsOf, withReceived } from './parameters';
 
 const number = (name: string, value: number | null) => ({ name, type: 'number', value });
 
@@ -19,6 +20,12 @@ describe('values of a step', () => {
       { kind: 'value', name: 'what_to_see', label: 'What to see', value: 'a box' },
       { kind: 'place', name: 'pose', label: '', x: 1.5, y: 2, degrees: 90 },
     ]);
+  });
+
+  it('calls an input what it means, in few words, and what says nothing of it by its name', () => {
+    const about: ParameterInfo = { kind: 'text', unit: '', default: null, choices: [], help: '' };
+    expect(labelOf('inspect', { ...about, help: 'What to look at, in a few words.' })).toBe('What to look at');
+    expect(labelOf('box_place', about)).toBe('Box place');
   });
 
   it('says when a place or value is not known yet', () => {

@@ -1,6 +1,6 @@
 /** Values of steps as people read them. Plain functions. */
-import type { ActionCall, ParameterView, StepView } from '@/live/types';
-import { inWords } from '@/ui/words';
+import type { ActionCall, ParameterInfo, ParameterView, StepView } from '@/live/types';
+import { inWords, sentence } from '@/ui/words';
 
 export type Row =
   | { kind: 'value'; name: string; label: string; value: string | null }
@@ -9,8 +9,14 @@ export type Row =
 const AXIS = /^(?:(.+)::)?position::([xyz])$/;
 const TURN = /^(?:(.+)::)?orientation::([rpy])$/;
 
-/** Parameters as rows: coordinates of one place are drawn together. */
-export function rowsOf(parameters: readonly ParameterView[]): readonly Row[] {
+/** What people call an input: what the action says that it means, up to the first pause in it, or else its name. */
+export function labelOf(name: string, about: ParameterInfo | undefined): string {
+  const meaning = about?.help.split(/[,;.:(]/)[0]?.trim() ?? '';
+  return meaning ? sentence(meaning) : inWords(name);
+}
+
+/** Parameters as rows: coordinates of one place are drawn together. `about` is what is known of some of them. */
+export function rowsOf(parameters: readonly ParameterView[], about: Readonly<Record<string, ParameterInfo>> = {}): readonly Row[] {
   const rows: Row[] = [];
   const places = new Map<string, Map<string, unknown>>();
   for (const parameter of parameters) {
@@ -18,7 +24,7 @@ export function rowsOf(parameters: readonly ParameterView[]): readonly Row[] {
     const turn = axis ? null : TURN.exec(parameter.name);
     const match = axis ?? turn;
     if (!match) {
-      rows.push({ kind: 'value', name: parameter.name, label: inWords(parameter.name), value: shown(parameter.value) });
+      rows.push({ kind: 'value', name: parameter.name, label: labelOf(parameter.name, about[parameter.name]), value: shown(parameter.value) });
       continue;
     }
     const name = match[1] ?? '';
