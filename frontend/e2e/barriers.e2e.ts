@@ -150,6 +150,12 @@ async function boxes(stage: Stage, page: Page, words: Words, findings: Findings)
     await box.waitFor({ state: 'detached' });
   };
   await page.getByRole('textbox').first().waitFor();
+  const menu = page.getByRole('button', { name: words('menu', 'menu'), exact: true });
+  if (await menu.isVisible()) {
+    await menu.click();
+    await findings.look('menu', box);
+    await close();
+  }
   await page.keyboard.press('Control+k');
   await findings.look('quick actions', box.getByRole('textbox'));
   await close();

@@ -1,7 +1,7 @@
 /** Several robots at one order, on a phone. */
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
-import { hasBrowser, PATIENCE_MS, robotNamed, say, sizes, startStage, type Stage } from './stage';
+import { barriers, hasBrowser, PATIENCE_MS, robotNamed, say, sizes, startStage, type Stage } from './stage';
 
 const ROBOTS = ['Spot', 'TIAGo', 'Leo'];
 
@@ -33,6 +33,7 @@ describe.skipIf(!hasBrowser)('people with a team', () => {
     await yes.waitFor();
     await card.getByRole('button', { name: /^Together: / }).tap();
     for (const robot of ROBOTS) await card.getByRole('listitem').filter({ hasText: robot }).waitFor();
+    expect(await barriers(page)).toEqual([]);
     await yes.tap();
     await card.getByRole('button', { name: 'Cancel the part of Leo' }).tap();
     await card.getByRole('listitem').filter({ hasText: 'Leo' }).getByText('Not all done').waitFor();

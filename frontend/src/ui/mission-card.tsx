@@ -26,12 +26,12 @@ export function MissionCard({ mission, isFolded = false }: Props) {
   const title = t('title', { words: quoted(mission.words) });
   return (
     <article className={css.card} aria-label={title} data-over={!goesOn(mission)}>
-      <h4 className={css.head}>
+      <h3 className={css.head}>
         <button type="button" className={css.fold} aria-expanded={open} onClick={() => setOpen(!open)}>
           <span>{title}</span>
           <Icon name={open ? 'up' : 'down'} size={16} />
         </button>
-      </h4>
+      </h3>
       <p className={css.progress} role="status">
         <progress value={done} max={mission.parts.length} aria-hidden="true" />
         {t('partsDone', { done, count: mission.parts.length })}
@@ -122,8 +122,8 @@ function Part({ mission, part }: { mission: MissionInfo; part: MissionPart }) {
   return (
     <li className={css.part} data-state={part.state}>
       <p>
-        <strong>{robot}</strong> <span>{part.state === 'waiting' && after ? t('waitsFor', { after }) : t(`state.${part.state}`)}</span>
-        {part.count > 1 && !isOver(part) && <span> {t('stepsDone', { done: part.done, count: part.count })}</span>}
+        <strong>{robot}</strong> <span>{part.state === 'waiting' && after ? t('waitsFor', { after }) : t(`state.${part.state}`)}</span>{' '}
+        {part.count > 1 && !isOver(part) && <span>{t('stepsDone', { done: part.done, count: part.count })}</span>}
       </p>
       <p>{part.label ? sentence(part.label) : what.map(sentence).join(' · ')}</p>
       {part.why && <p className={css.why}>{sentence(part.why)}</p>}

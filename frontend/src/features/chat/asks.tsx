@@ -16,6 +16,11 @@ import css from './asks.module.css';
 import { Choices } from './choices';
 import { useInSight } from './use-in-sight';
 
+/** What is too long to be seen at once scrolls, for keys as well. */
+const byKeys = (text: HTMLElement | null) => {
+  if (text) text.tabIndex = text.scrollHeight > text.clientHeight ? 0 : -1;
+};
+
 type Choose = (entry: ChatEntry, choice: string) => void;
 
 interface Props {
@@ -64,7 +69,7 @@ function Question({ entry, onChoose, children }: { entry: ChatEntry; onChoose: C
   const isRead = useInSight(entry.id);
   return (
     <section className={css.ask} aria-label={t('questionHere', { name })}>
-      <p className={isRead ? 'hidden' : css.wishes}>
+      <p className={isRead ? 'hidden' : css.wishes} ref={isRead ? null : byKeys}>
         <strong>{t('answering', { name })}</strong> {entry.message}
       </p>
       <div className={css.buttons}>
@@ -91,7 +96,7 @@ function Proposal({ proposal, chosen, children }: { proposal: ProposalView; chos
       <p className={css.title}>
         <Link href="/plan">{t('proposalTitle', { robot: proposal.robot })}</Link>
       </p>
-      <p className={css.wishes}>{wishes.join(' · ')}</p>
+      <p className={css.wishes} ref={byKeys}>{wishes.join(' · ')}</p>
       <div className={css.buttons}>
         <Button needs="approve" tone={writing ? 'plain' : 'main'} icon="check" isDisabled={busy} onPress={() => void decide('approve')}>
           {t('approve', { count: lines.length, what: sentence(lines[0]?.step.label ?? '') })}

@@ -17,19 +17,21 @@ interface TabProps {
   name: string;
   chosen: boolean;
   awaitsAnswer: boolean;
+  /** Whether of all of them it is to be in sight. */
+  leads: boolean;
   onOnly: () => void;
   onToggle: () => void;
 }
 
-function Tab({ name, chosen, awaitsAnswer, onOnly, onToggle }: TabProps) {
+function Tab({ name, chosen, awaitsAnswer, leads, onOnly, onToggle }: TabProps) {
   const { t } = useTranslation(['chat', 'robots']);
   const mood = useMood(name);
   const press = useLongPress(onToggle);
   const tab = useRef<HTMLButtonElement>(null);
   useEffect(() => {
     // With many robots on a phone it may be out of sight.
-    if (awaitsAnswer || chosen) tab.current?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
-  }, [awaitsAnswer, chosen]);
+    if (leads) tab.current?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
+  }, [leads]);
   return (
     <button
       ref={tab}
@@ -65,6 +67,7 @@ export function RobotTabs({ asked, tools = null }: { asked: readonly ChatEntry[]
   const { only, toggle } = useSelectionStore();
   const proposals = useWorld((world) => world.proposals);
   const asking = new Set([...Object.values(proposals).map((one) => one.robot), ...asked.flatMap((one) => one.targets)]);
+  const leading = chosen.find((name) => asking.has(name)) ?? names.find((name) => asking.has(name)) ?? chosen[0];
   const open = useOverlays((state) => state.set);
   const [several, setSeveral] = useState(false);
   const alone = names.length === 1;
@@ -81,6 +84,7 @@ export function RobotTabs({ asked, tools = null }: { asked: readonly ChatEntry[]
                 name={name}
                 chosen={chosen.includes(name)}
                 awaitsAnswer={asking.has(name)}
+                leads={name === leading}
                 onOnly={() => (several ? toggle(name, names) : only(name))}
                 onToggle={() => toggle(name, names)}
               />

@@ -1,4 +1,4 @@
-import { Checkbox, CheckboxGroup, Dialog, DialogTrigger, Label, Popover } from 'react-aria-components';
+import { Checkbox, CheckboxGroup, DialogTrigger, Label, Popover } from 'react-aria-components';
 import { useTranslation } from 'react-i18next';
 
 import type { FeedInfo } from '@/live/types';
@@ -19,8 +19,8 @@ export function FeedMenu({ groups }: { groups: readonly [string, readonly FeedIn
       <Button tone="quiet" icon="down" isDisabled={all.length === 0}>
         {t('choose')}
       </Button>
-      <Popover className={css.popover ?? ''} placement="bottom end">
-        <Dialog className={css.menu ?? ''} aria-label={t('chooseLabel')}>
+      <Popover className={css.popover ?? ''} placement="bottom end" aria-label={t('chooseLabel')}>
+        <div className={css.menu}>
           {groups.map(([robot, feeds]) => (
             <RobotFeeds key={robot} robot={robot} feeds={feeds} />
           ))}
@@ -28,7 +28,7 @@ export function FeedMenu({ groups }: { groups: readonly [string, readonly FeedIn
             <Button onPress={() => choose(all, true)}>{t('all')}</Button>
             <Button onPress={() => choose(all, false)}>{t('nothing')}</Button>
           </div>
-        </Dialog>
+        </div>
       </Popover>
     </DialogTrigger>
   );

@@ -1,5 +1,5 @@
 import { useState } from 'react';
-import { Button as AriaButton, Dialog, DialogTrigger, Popover } from 'react-aria-components';
+import { Button as AriaButton, DialogTrigger, Popover } from 'react-aria-components';
 import { useTranslation } from 'react-i18next';
 
 import { useOverlays } from '@/state/overlays';
@@ -24,15 +24,15 @@ export function MenuButton({ className, placement }: { className?: string | unde
         <Icon name="menu" />
         <span>{t('menu')}</span>
       </AriaButton>
-      <Popover className={css.drop ?? ''} placement={placement}>
-        <Dialog aria-label={t('menu')} className={css.dropBody ?? ''}>
+      <Popover className={css.drop ?? ''} placement={placement} aria-label={t('menu')}>
+        <div className={css.dropBody}>
           <NavLinks onGo={() => setOpen(false)} />
           <button type="button" className={css.link} onClick={actions}>
             <Icon name="search" />
             {t('commandsShort')}
           </button>
           <Understands />
-        </Dialog>
+        </div>
       </Popover>
     </DialogTrigger>
   );

@@ -1,10 +1,11 @@
-import { useEffect, useMemo, useRef, useState, type Ref } from 'react';
+import { useContext, useEffect, useMemo, useRef, useState, type Ref } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { useWorld } from '@/live/store';
 import type { PlanView, ProposalView, StepState } from '@/live/types';
 import { planKey } from '@/live/world';
 import { useSelection } from '@/state/selection';
+import { Beside } from '@/ui/button';
 import { Choice } from '@/ui/choice';
 import { Icon } from '@/ui/icon';
 import { Empty, Loading, Panel } from '@/ui/panel';
@@ -119,11 +120,12 @@ function PlanOf({ plan }: { plan: PlanView }) {
 
 /** What the robot does with others: all that goes on, or else what ended last. */
 function Together({ robot }: { robot: string }) {
+  const isBeside = useContext(Beside); // then the conversation shows it
   const missions = useWorld((world) => world.missions);
   const own = missions.filter((mission) => isOf(mission, [robot]));
   const going = own.filter(goesOn);
   return (going.length > 0 ? going : own.slice(-1)).map((mission) => (
-    <MissionCard key={mission.id} mission={mission} isFolded={!goesOn(mission)} />
+    <MissionCard key={mission.id} mission={mission} isFolded={isBeside || !goesOn(mission)} />
   ));
 }
 
