@@ -383,6 +383,9 @@ async def test_the_page_is_served_from_its_folder_and_nothing_else_is(tmp_path: 
         assert f"'nonce-{nonce}'" in page.headers["content-security-policy"]
         assert (await rig.http.get("/plan/of/Ada")).text.endswith("page")
         script = await rig.http.get("/assets/page-1a2b.js")
+        assert script.headers["content-encoding"] == "gzip"
+        unpacked = await rig.http.get("/assets/page-1a2b.js", headers={"Accept-Encoding": "identity"})
+        assert (unpacked.text, unpacked.headers.get("content-encoding")) == ("run()", None)
         assert (script.text, script.headers["cache-control"]) == (
             "run()",
             "public, max-age=31536000, immutable",

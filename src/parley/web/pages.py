@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
+import gzip
 import html
+import mimetypes
 from importlib import resources
 from pathlib import Path
 from typing import Final
@@ -42,6 +45,7 @@ class Pages:
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder.resolve()
+        self._packed: dict[Path, bytes] = {}
 
     async def answer(self, request: Request) -> Response:
         """The file of a request."""
@@ -51,10 +55,26 @@ class Pages:
             # Names of built files hold a digest of what is in them.
             is_fixed = path.startswith("assets/")
             caching = "public, max-age=31536000, immutable" if is_fixed else "no-cache"
+            if is_fixed and "gzip" in request.headers.get("Accept-Encoding", ""):
+                return await self._packed_answer(file, caching)
             return FileResponse(file, headers={"Cache-Control": caching})
         if path.startswith(("api/", "assets/")):
             return problem_response(WebProblem(404, "There is nothing under this address."))
         return self._page(request)
+
+    async def _packed_answer(self, file: Path, caching: str) -> Response:
+        """A file that never changes under its name, packed once, so that a phone loads it fast."""
+        if file not in self._packed:
+            self._packed[file] = await asyncio.to_thread(lambda: gzip.compress(file.read_bytes()))
+        return Response(
+            self._packed[file],
+            media_type=mimetypes.guess_type(file.name)[0],
+            headers={
+                "Cache-Control": caching,
+                "Content-Encoding": "gzip",
+                "Vary": "Accept-Encoding",
+            },
+        )
 
     def _file(self, path: str) -> Path | None:
         if path in ("", "index.html") or "\0" in path:
