@@ -43,7 +43,7 @@ def test_effects_say_who_moves_and_who_asks() -> None:
         "AskOperator": ("asks_operator",), "KeepPicture": ("remembers",), "MoveBy": ("moves",),
         "TurnBy": ("turns",), "TakePicture": ("looks", "shows"), "Wait": ("waits",),
         "Say": ("speaks",), "Follow": ("follows", "moves"), "Dock": ("moves",),
-        "PickUp": ("holds",), "Place": ("puts",),
+        "PickUp": ("grasps",), "Place": ("places",),
     }  # fmt: skip
 
 

@@ -14,7 +14,7 @@ __all__ = ["arm_of", "pick_up"]
 
 @action(
     label="Pick up: {thing}",
-    effects=("holds",),
+    effects=("grasps",),
     capabilities=("camera", "arm"),
     pausable=False,
     kinds={"thing": "thing"},

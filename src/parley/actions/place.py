@@ -23,7 +23,7 @@ _WITHIN_M: Final = 1.0
 
 @action(
     label="Put down: {thing}",
-    effects=("puts",),
+    effects=("places",),
     capabilities=("arm",),
     pausable=False,
     kinds={"thing": "thing"},

@@ -346,7 +346,7 @@ def _words_of(step: ActionCall) -> str:
 def _looks(situation: ErrorSituation) -> bool:
     """Whether the failed step looks at something, or for what it takes."""
     infos = (info for info in situation.catalogue if info.name == situation.failed_action.name)
-    return any({"looks", "holds"} & {*info.effects} for info in infos)
+    return any({"looks", "grasps"} & {*info.effects} for info in infos)
 
 
 def _is_tried(situation: ErrorSituation, repair: ChatAction) -> bool:

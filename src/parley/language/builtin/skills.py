@@ -74,7 +74,7 @@ class Skill:
     @property
     def is_by_hand(self) -> bool:
         """Whether it takes what is before the robot, or puts down what it has: no map need know that."""
-        return bool({"holds", "puts"} & {*self.action.effects})
+        return bool({"grasps", "places"} & {*self.action.effects})
 
     @property
     def names_person(self) -> bool:
