@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import json
 import os
 import socket
@@ -50,6 +51,15 @@ def test_a_page_that_is_not_built_is_missing_but_the_terminal_works(machine: Sub
     page = found(machine, "page")
     assert (page.state, page.hinders) == ("missing", False)
     assert "--terminal" in page.remedy
+
+
+def test_a_page_that_nothing_would_serve_is_not_missing(
+    machine: Subject, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (machine.static_dir / "index.html").unlink()
+    real = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "uvicorn" else real(name))
+    assert found(machine, "page").state == "unused"
 
 
 def test_a_port_in_use_is_named(machine: Subject) -> None:

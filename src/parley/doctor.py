@@ -122,6 +122,8 @@ def _installed(name: str) -> bool:
 def _page(subject: Subject) -> Finding:
     if (subject.static_dir / "index.html").is_file():
         return Finding("page", "ok", "built")
+    if importlib.util.find_spec("uvicorn") is None:
+        return Finding("page", "unused", "Not here; nothing would serve it.")
     return Finding(
         "page",
         "missing",

@@ -28,7 +28,7 @@ def call(name: str, reason: str = "", **inputs: str) -> ActionCall:
 
 def step(text: str, state: str = "queued", node: str = "") -> PlanStep:
     """A step that reads `text`."""
-    return PlanStep.model_validate({"action": call("DoIt", text), "state": state, "node": node})
+    return PlanStep.model_validate({"action": call("DoIt"), "label": text, "state": state, "node": node})
 
 
 def plan(*steps: PlanStep, state: str = "running", target: str = "Ada", graph: str = "g1") -> PlanUpdate:

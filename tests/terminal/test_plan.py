@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from parley.messages.chat import ActionCall
-from parley.messages.status import PlanUpdate
-from parley.terminal.plan import Progress, bar, compare, label, lines_of, plan_rows, step_row
+from parley.messages.status import PlanStep, PlanUpdate
+from parley.terminal.plan import Progress, bar, compare, in_words, lines_of, plan_rows, step_row
 from tests.terminal.robots import call, plan, step
 
 
@@ -19,16 +19,19 @@ def flat(rows: list[list[tuple[str, str]]]) -> list[str]:
 @pytest.mark.parametrize(
     ("action", "words"),
     [
-        (call("NavigateTo", "drive to the box"), "drive to the box"),
+        (call("NavigateTo", "what a model says of it"), "navigate to"),
         (call("GetCoordinates", target="box"), "get coordinates: box"),
         (call("pick_up"), "pick up"),
         (call("Inspect", inspect="door"), "inspect: door"),
     ],
 )
-def test_a_step_reads_as_its_reason_or_else_as_the_words_of_its_action(
-    action: ActionCall, words: str
-) -> None:
-    assert label(action) == words
+def test_what_nothing_was_written_of_reads_as_the_words_of_its_action(action: ActionCall, words: str) -> None:
+    assert in_words(action) == words
+
+
+def test_a_step_reads_as_code_wrote_it_whatever_a_model_says_of_it() -> None:
+    told = PlanStep(action=call("NavigateTo", "bring the tea"), label="Go to “box”")
+    assert step_row(told, "en") == "○ Go to “box”"
 
 
 def test_a_step_shows_its_number_icon_and_state_in_words() -> None:
@@ -86,7 +89,7 @@ def test_steps_that_ended_meanwhile_are_reported_once() -> None:
     first = plan(step("a", "running", "a_0"), step("b", "queued", "b_0"))
     second = plan(step("a", "finished", "a_0"), step("b", "running", "b_0"))
     _, ended = compare(first, second)
-    assert [step.action.reason for step in ended] == ["a"]
+    assert [step.label for step in ended] == ["a"]
     assert compare(second, second) == (False, [])
 
 
@@ -98,15 +101,13 @@ def test_a_step_that_was_known_before_its_node_existed_is_recognised() -> None:
 def test_of_what_is_cancelled_only_the_step_that_had_begun_is_reported() -> None:
     before = plan(step("a", "running", "a_0"), step("b", "queued", "b_0"))
     _, ended = compare(before, plan(step("a", "stopped", "a_0"), step("b", "stopped", "b_0"), state="idle"))
-    assert [step.action.reason for step in ended] == ["a"]
+    assert [step.label for step in ended] == ["a"]
 
 
 def test_a_search_for_the_next_step_is_shown_only_where_it_has_something_to_say() -> None:
     def shown(*states: str) -> list[str]:
         one, two = (step("find", state).model_copy(update={"for_next": True}) for state in states)
-        return [
-            f"{line.action.reason} {line.state}" for line in lines_of([one, step("go"), two, step("look")])
-        ]
+        return [f"{line.label} {line.state}" for line in lines_of([one, step("go"), two, step("look")])]
 
     assert shown("running", "queued") == ["go running", "look queued"]
     assert shown("finished", "failed") == ["go queued", "find failed", "look queued"]

@@ -192,7 +192,9 @@ def test_progress_is_live_and_ends_with_its_step(view: OperatorView) -> None:
 
 
 def test_a_proposed_plan_asks_for_a_yes_and_goes_with_the_decision(view: OperatorView) -> None:
-    proposal = PlanProposal(id="p", target="Ada", message="I would go.", steps=(call("Go", "go to the box"),))
+    proposal = PlanProposal(
+        id="p", target="Ada", message="I would go.", steps=(call("Go", "tea!"),), lines=("go to the box",)
+    )
     lines = view.on_plan(proposal)
     assert [line.text for line in lines] == [
         "Ada would do this:",

@@ -12,7 +12,7 @@ from parley.messages.status import PlanStep, PlanUpdate
 from parley.sentences import SpokenLanguage, in_language, sentence
 from parley.terminal.lines import Fragments
 
-__all__ = ["ICONS", "Progress", "bar", "compare", "is_over", "label", "lines_of", "plan_rows", "step_row"]
+__all__ = ["ICONS", "Progress", "bar", "compare", "in_words", "is_over", "lines_of", "plan_rows", "step_row"]
 
 ICONS = {
     "queued": "○",
@@ -53,10 +53,13 @@ class Progress:
     text: str = ""
 
 
-def label(call: ActionCall) -> str:
-    """A step in words: its reason, or else what the action is called and given."""
-    if call.reason:
-        return call.reason
+def _label(step: PlanStep) -> str:
+    """A step in the words that code wrote of it, as it was approved and is told when it is over."""
+    return step.label or in_words(step.action)
+
+
+def in_words(call: ActionCall) -> str:
+    """What an action is called and given, where nothing else was written of it."""
     words = " ".join(part.lower() for part in _WORD_STARTS.split(call.name) if part)
     given = [str(p.value) for p in call.input_parameters.values() if p.type == "string" and p.has_data]
     return f"{words}: {', '.join(given)}" if given else words
@@ -76,7 +79,7 @@ def step_row(
     state = _progress_text(progress, language) or in_language(STATES[step.state], language)
     numbered = f"{number}. " if number and not is_over(step) else ""
     described = f" ({state})" if step.state != "queued" else ""
-    return f"{ICONS[step.state]} {numbered}{in_language(label(step.action), language)}{described}"
+    return f"{ICONS[step.state]} {numbered}{in_language(_label(step), language)}{described}"
 
 
 def is_over(step: PlanStep) -> bool:
@@ -153,12 +156,12 @@ def _progress_text(progress: Progress | None, language: SpokenLanguage) -> str:
 
 
 def _short(step: PlanStep, language: SpokenLanguage) -> str:
-    text = in_language(label(step.action), language)
+    text = in_language(_label(step), language)
     return text if len(text) <= _MAX_LABEL_CHARS else f"{text[: _MAX_LABEL_CHARS - 1]}…"
 
 
 def _key(step: PlanStep) -> tuple[str, str]:
-    return step.action.name, label(step.action)
+    return step.action.name, _label(step)
 
 
 def _contains(whole: Sequence[object], part: Sequence[object]) -> bool:
