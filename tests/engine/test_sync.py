@@ -119,6 +119,31 @@ def test_every_command_arrives_once_and_in_order_whatever_the_network_does(
     asyncio.run(play())
 
 
+async def test_what_was_confirmed_is_kept_no_longer_than_somebody_may_need_it() -> None:
+    network = Network(1, 0.0)
+    first, second = network.join("A", timeout_s=0.05), network.join("B")
+    await started(network, first, second)
+    session, node = first._sessions["g"], Node("Work", 0, actor="A")
+    for end in ends(3):
+        session.ended("g", node, end)
+    await until(lambda: session.settled)
+    assert len(session._said) == 3
+    await asyncio.sleep(0.06)
+    session.ended("g", node, ends(4)[3])
+    await until(lambda: session.settled)
+    assert len(session._said) == 1
+    found = [await second._sessions["g"].end_of("g", node) for _ in range(4)]
+    assert [end.outputs["n"].value for end in found] == [0.0, 1.0, 2.0, 3.0]
+    assert not network.complaints
+
+
+async def test_a_run_that_does_not_begin_answers_nobody() -> None:
+    network = Network(1, 0.0)
+    first, second = network.join("A"), network.join("B", timeout_s=0.05)
+    first.open("g", {"B"}).close()
+    assert await second.open("g", {"A"}).handshake() == ["A"]
+
+
 async def test_who_does_not_answer_any_more_is_told_once_and_holds_nobody_else_up() -> None:
     network = Network(1, 0.0)
     first, second, third = (network.join(name, timeout_s=0.1) for name in "ABC")

@@ -22,7 +22,7 @@ from parley.engine.runs import GraphRuns
 from parley.engine.stop import EmergencyStop
 from parley.engine.stop_listener import StopListener
 from parley.engine.sync import PEER_TIMEOUT_S
-from parley.engine.together import Together
+from parley.engine.together import Command, Together
 from parley.errors import ConfigError, GraphRefusedError, InvalidMessageError, Problem, UnavailableError
 from parley.gate.book import RuleBook
 from parley.gate.stop_line import StopLine
@@ -245,8 +245,11 @@ class ActionEngine(OpenedTogether):
             subscriptions.append(subscription)
             stack.push_async_callback(subscription.close)
 
-        def light(topic: Topic[M], command: Callable[[M], None]) -> Callable[[M], None]:
-            return lambda message: self._command(topic.name, message, command)
+        async def on_command(topic: Topic[M], command: Command) -> None:
+            def take(message: M) -> None:
+                self._command(topic.name, command, message.umrf_graph_name, message.targets)
+
+            await on(topic, take)
 
         if self._own_line:
             names = dict.fromkeys(self._names, self.actor)
@@ -278,9 +281,9 @@ class ActionEngine(OpenedTogether):
             ),
         )
         for topic in (topics.GRAPH_PAUSE, topics.GRAPH_PAUSE_TEMOTO):
-            await on(topic, light(topic, self._pause))
-        await on(topics.GRAPH_RESUME, light(topics.GRAPH_RESUME, self._resume))
-        await on(topics.GRAPH_STOP, light(topics.GRAPH_STOP, self._stop))
+            await on_command(topic, "pause")
+        await on_command(topics.GRAPH_RESUME, "resume")
+        await on_command(topics.GRAPH_STOP, "stop")
         await on(topics.STEP, lambda message: self._payload(topics.STEP, StepCommand, message, self._on_step))
 
     async def _watch_others(self) -> None:
@@ -293,13 +296,16 @@ class ActionEngine(OpenedTogether):
 
     # -- commands -------------------------------------------------------------------------------------------
 
-    def _command(self, what: str, message: M, command: Callable[[M], None]) -> None:
-        """Carry out one command for us, or say why not."""
-        if not self._names.isdisjoint(message.targets):
-            self._light(what, message.umrf_graph_name, lambda: command(message))
+    def _command(
+        self, what: str, command: Command, name: str, targets: Sequence[str], node: str = ""
+    ) -> None:
+        """Carry out one command if it is for us, or say why not."""
+        if not self._names.isdisjoint(targets):
 
-    def _light(self, what: str, name: str, command: Callable[[], None]) -> None:
-        self._inbox.put(name, lambda: self._told(what, name, command), light=True)
+            def work() -> None:
+                self._told(what, name, lambda: self._together.command(command, name, targets, node))
+
+            self._inbox.put(name, work, light=True)
 
     def _heavy_command(self, what: str, message: M, text: str, command: Callable[[M, Raw], None]) -> None:
         """As `_command`, for one that brings a graph, which may be large."""
@@ -369,22 +375,7 @@ class ActionEngine(OpenedTogether):
 
     def _modify(self, message: ros.UmrfGraphModify, raw: Raw) -> None:
         graph = read_loaded(raw)
-        if message.continue_from:
-            self._together.check(graph.name)
         self._together.modify(graph, message.modified_graph, message.continue_from, message.targets)
-
-    def _pause(self, message: ros.UmrfGraphPause) -> None:
-        self.runs.pause(message.umrf_graph_name)
-        self._together.pass_on("pause", message.umrf_graph_name, message.targets)
-
-    def _resume(self, message: ros.UmrfGraphResume) -> None:
-        self._together.check(message.umrf_graph_name)
-        self.runs.resume(message.umrf_graph_name)
-        self._together.pass_on("resume", message.umrf_graph_name, message.targets)
-
-    def _stop(self, message: ros.UmrfGraphStop) -> None:
-        self.runs.stop(message.umrf_graph_name)
-        self._together.pass_on("stop", message.umrf_graph_name, message.targets)
 
     def _payload(
         self, topic: Topic[ros.String], kind: type[P], message: ros.String, take: Callable[[P], None]
@@ -398,12 +389,7 @@ class ActionEngine(OpenedTogether):
             self._reject(topic.name, error.graph_name, error.problems)
 
     def _on_step(self, command: StepCommand) -> None:
-        def end() -> None:
-            self.runs.end_node(command.graph_name, command.node)
-            self._together.pass_on("end", command.graph_name, (command.target,), node=command.node)
-
-        if command.target in self._names:
-            self._light(topics.STEP.name, command.graph_name, end)
+        self._command(topics.STEP.name, "end", command.graph_name, (command.target,), command.node)
 
     def _hear_rules(self, told: RulesInForce) -> None:
         assert self._rules is not None

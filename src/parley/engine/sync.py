@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import itertools
 import uuid
 from collections import defaultdict, deque
 from collections.abc import Callable, Iterable
@@ -58,17 +59,16 @@ class Session:
         self._sync, self._actors = sync, frozenset(actors)
         self._peers = {actor: _Peer() for actor in self._actors}
         self._said: deque[tuple[float, SyncEntry]] = deque()
-        """What is still to be said, and since when (wall time)."""
-        self._forgotten = 0
-        """How much was said before that."""
+        """What was said, and when (wall time), until the time to confirm it is over."""
+        self._first = 0
+        """Number of the first of them."""
         self._ends: defaultdict[tuple[str, str], deque[SyncEntry]] = defaultdict(deque)
         self._came = asyncio.Event()
         self._asked = ""
         """Id of the change that the others are asked about."""
         self._answers: dict[str, str] = {}
         self._opened_s = sync.clock.wall_s()
-        self._soon: asyncio.Handle | None = None
-        self._again: asyncio.TimerHandle | None = None
+        self._next: asyncio.TimerHandle | None = None
         self._closed = False
 
     @property
@@ -88,7 +88,7 @@ class Session:
 
     @property
     def _count(self) -> int:
-        return self._forgotten + len(self._said)
+        return self._first + len(self._said)
 
     async def handshake(self) -> list[str]:
         """Wait until every other actor has taken up the graph, too; those that did not in time."""
@@ -99,24 +99,16 @@ class Session:
     def _silent(self) -> list[str]:
         return sorted(name for name in self._actors if not self._peers[name].ready)
 
-    async def ask(self, graph_json: str, continue_from: str) -> dict[str, str]:
-        """Ask all others whether the graph could be changed so; who cannot, and why (empty: no answer came).
+    async def ask(self, change: SyncEntry) -> dict[str, str]:
+        """Ask all others whether a change could be made; who cannot, and why (empty: no answer came).
 
         One question at a time: hold `changing` meanwhile.
 
         Args:
-            graph_json: The new form.
-            continue_from: Where it is to go on.
+            change: The command to make it.
         """
         self._asked, self._answers = uuid.uuid4().hex, {}
-        question = SyncEntry(
-            kind="ask",
-            graph_name=self.graph_name,
-            id=self._asked,
-            graph_json=graph_json,
-            continue_from=continue_from,
-        )
-        self.tell(question)
+        self.tell(change.model_copy(update={"kind": "ask", "id": self._asked, "targets": ()}))
         await self._until(lambda: self.others <= self._answers.keys())
         refusals = {name: reason for name, reason in self._answers.items() if reason}
         return refusals | dict.fromkeys(self.others - self._answers.keys(), "")
@@ -133,16 +125,11 @@ class Session:
                 message=end.message,
             )
         )
-        if self._closed:
-            self._say()
-        elif self._soon is None:  # of many ends in one turn of the loop one notice is made
-            self._soon = asyncio.get_running_loop().call_soon(self._say)
 
     def tell(self, entry: SyncEntry) -> None:
         """Say a command, a question or an answer to those who do not know it already."""
         if not self.others <= set(entry.targets):
             self._add(entry)
-            self._say()
 
     async def end_of(self, graph_name: str, node: Node) -> RemoteEnd:
         """See `Peers.end_of`; ends of one node are given in the order in which they happened."""
@@ -162,10 +149,9 @@ class Session:
         One that the graph does not name could not be waited for; it gets what has happened before.
         """
         peer = self._peers.get(notice.actor)
-        if peer is None:
-            if self._is_old():
-                return
-            peer = self._peers[notice.actor] = _Peer()
+        if self._closed or (peer is None and self._is_old()):
+            return
+        peer = self._peers.setdefault(notice.actor, peer or _Peer())
         new = peer.run != notice.run
         if new and peer.ready:
             return
@@ -185,12 +171,12 @@ class Session:
         self._came.set()
 
     def close(self) -> None:
-        """Say nothing again."""
+        """Say what has happened, and nothing again; nothing is taken any more."""
         self._closed = True
-        if self._soon is not None:
+        if self._next is not None:
+            self._next.cancel()
+            self._next = None
             self._say()
-        if self._again is not None:
-            self._again.cancel()
 
     def _hear(self, actor: str, entry: SyncEntry) -> None:
         if entry.kind == "ended":
@@ -213,19 +199,30 @@ class Session:
 
     def _add(self, entry: SyncEntry) -> None:
         self._said.append((self._sync.clock.wall_s(), entry))
-        if self._is_old():  # nobody comes any more who would have to hear it all
-            least = min((peer.confirmed for peer in self._peers.values()), default=self._count)
-            while self._forgotten < least:
-                self._said.popleft()
-                self._forgotten += 1
+        if self._closed:
+            self._say()
+        else:  # of much in one turn of the loop one notice is made
+            self._say_in(0.0)
+
+    def _say_in(self, wait_s: float) -> None:
+        due_s = asyncio.get_running_loop().time() + wait_s
+        if self._next is None or self._next.when() > due_s:
+            if self._next is not None:
+                self._next.cancel()
+            self._next = asyncio.get_running_loop().call_at(due_s, self._go_on)
+
+    def _go_on(self) -> None:
+        self._next = None
+        self._give_up()
+        if self._waits():
+            self._say()
+
+    def _waits(self) -> bool:
+        return not self.settled or (bool(self._silent()) and not self._is_old())
 
     def _say(self, *, answer: bool = True) -> None:
         """Say what not all have confirmed; `answer`: whether they are to say how far they are."""
-        if self._soon is not None:
-            self._soon.cancel()
-            self._soon = None
-        least = min((peer.confirmed for peer in self._peers.values()), default=0)
-        first = max(self._forgotten, least)
+        first = min((peer.confirmed for peer in self._peers.values()), default=self._first)
         self._sync.publish(
             SyncNotice(
                 actor=self._sync.actor,
@@ -233,35 +230,27 @@ class Session:
                 run=self.id,
                 heard={name: (peer.run, peer.taken) for name, peer in self._peers.items() if peer.run},
                 first=first,
-                said=tuple(entry for _, entry in self._said)[first - self._forgotten :],
+                said=tuple(entry for _, entry in itertools.islice(self._said, first - self._first, None)),
                 answer=answer,
             )
         )
-        waits = (self._silent() and not self._is_old()) or not self.settled
-        if waits and self._again is None and not self._closed:
-            self._again = asyncio.get_running_loop().call_later(RETRY_S, self._say_again)
-
-    def _say_again(self) -> None:
-        self._again = None
-        self._give_up()
-        if not self.settled or self._silent():
-            self._say()
+        if self._waits() and not self._closed:
+            self._say_in(RETRY_S)
 
     def _give_up(self) -> None:
-        """Say whom nothing was heard of for too long, and wait no longer for it."""
-        until_s, number = self._sync.clock.wall_s() - self._sync.timeout_s, self._forgotten
-        for since_s, entry in self._said:
-            late = {name: peer for name, peer in self._peers.items() if peer.confirmed <= number}
-            if since_s > until_s:
-                return
+        """Forget what is too old for anybody to need it, and say who has not confirmed it."""
+        until_s = self._sync.clock.wall_s() - self._sync.timeout_s
+        while self._said and self._said[0][0] <= until_s:
+            _, entry = self._said.popleft()
+            late = {name: peer for name, peer in self._peers.items() if peer.confirmed <= self._first}
+            self._first += 1
             for peer in late.values():
-                peer.confirmed = number + 1
+                peer.confirmed = self._first
             if (names := sorted(late.keys() - set(entry.targets))) and entry.kind in ("ended", "command"):
                 what = f"{', '.join(names)} did not confirm {_named(entry)}"
                 self._sync.complain(
                     self.graph_name, Problem("", what, "see whether they still run", "peer_lost")
                 )
-            number += 1
 
 
 def _named(entry: SyncEntry) -> str:
@@ -295,25 +284,16 @@ class Sync:
         self.actor, self.clock, self.publish = actor, clock, publish
         self.complain, self.hear = complain, hear
         self.timeout_s = timeout_s
-        self._sessions: dict[str, Session] = {}
+        self._sessions: Latest[str, Session] = Latest(_KEPT)
         self._statuses: dict[str, ActorStatus] = {}
         self._at_work_s: Latest[tuple[str, str], float] = Latest()
 
     def open(self, graph_name: str, actors: Iterable[str]) -> Session:
         """Begin a run of a graph with others; a session of an older run of it is closed."""
-        old = self._sessions.pop(graph_name, None)
-        if old is not None:
+        if (old := self._sessions.get(graph_name)) is not None:
             old.close()
         session = self._sessions[graph_name] = Session(self, graph_name, actors)
-        while len(self._sessions) > _KEPT:
-            self._sessions.pop(next(iter(self._sessions))).close()
         return session
-
-    def drop(self, session: Session) -> None:
-        """Forget a run that does not begin."""
-        session.close()
-        if self._sessions.get(session.graph_name) is session:
-            del self._sessions[session.graph_name]
 
     def take(self, notice: SyncNotice) -> None:
         """Something came from another engine."""
@@ -336,20 +316,14 @@ class Sync:
             name for name in actors if name in self._statuses and self._statuses[name].state == "stopped"
         )
 
-    def absence(self, actor: str) -> str:
-        """Why `actor` may not have answered, in words."""
+    def absence(self, actor: str, did_not: str = "did not take up the graph") -> str:
+        """Why `actor` may not have answered, in words; `did_not`: what it left undone."""
         status = self._statuses.get(actor)
         if status is None or status.state == "leaving":
             return f"{actor} is not there"
         if status.state == "stopped":
             return f"{actor} was stopped by the emergency stop"
-        return f"{actor} is there, but did not take up the graph"
-
-    def silence(self, actor: str) -> str:
-        """Why `actor` may not have answered a question, in words."""
-        status = self._statuses.get(actor)
-        gone = status is None or status.state == "leaving"
-        return f"{actor} is not there" if gone else f"{actor} is there, but did not answer"
+        return f"{actor} is there, but {did_not}"
 
     def lost(self, actor: str, graph_name: str, since_s: float) -> str:
         """Why nothing can be expected of `actor` any more, in words; empty if that is not known.

@@ -15,7 +15,7 @@ from parley.umrf.executor import GraphRun
 from parley.umrf.io import read_graph
 from parley.umrf.model import NOTHING, Graph, GraphState, Result
 
-__all__ = ["Together"]
+__all__ = ["Command", "Together"]
 
 Command = Literal["stop", "pause", "resume", "modify", "end"]
 
@@ -81,7 +81,7 @@ class Together:
         try:
             run = self._runs.prepare(graph, parameters, session)
         except GraphRefusedError:
-            self._sync.drop(session)
+            session.close()
             raise
         if session.actors:
             self._spawn(self._begin(run, session, result))
@@ -93,15 +93,10 @@ class Together:
         if not self._watching:
             self._watching = True
             await self._watch()
-        silent = await session.handshake()
+        remedy = f"send {run.name} to {{}}, too, and see that it runs"
         problems = [
-            Problem(
-                "actor",
-                self._sync.absence(name),
-                f"send {run.name} to {name}, too, and see that it runs",
-                "peer_silent",
-            )
-            for name in silent
+            Problem("actor", self._sync.absence(name), remedy.format(name), "peer_silent")
+            for name in await session.handshake()
         ]
         try:
             if problems:
@@ -109,22 +104,30 @@ class Together:
             self._runs.begin(run, result)
         except GraphRefusedError as error:
             self._runs.drop(run)
-            self._sync.drop(session)
+            session.close()
             run.stop()  # so that whoever waits for it hears that it is over
             self._refuse("umrf_graph_start", run.name, error.problems)
 
     # -- commands -------------------------------------------------------------------------------------------
 
-    def check(self, name: str) -> None:
-        """What would run something must wait until no emergency stop is in force at any actor of the graph.
+    def command(self, command: Command, name: str, targets: Sequence[str] = (), node: str = "") -> None:
+        """Carry out a command here, and by the other actors of the graph.
+
+        Args:
+            command: What is to be done.
+            name: The graph.
+            targets: Who was told so directly.
+            node: Which one is to end, by full name.
 
         Raises:
-            GraphRefusedError: One is.
+            GraphRefusedError: See the method of `GraphRuns`; also if anything is to go on while an emergency
+                stop is in force at any actor of the graph.
         """
-        run = self._runs.get(name)
-        others = run.peers.others if run is not None and isinstance(run.peers, Session) else ()
-        if stopped := self._sync.stopped(others):
-            raise stop_latched(name, ", ".join(stopped))
+        if command == "resume":
+            self._refuse_if_stopped(name)
+        entry = SyncEntry(kind="command", graph_name=name, command=command, targets=tuple(targets), node=node)
+        self._obey(entry)
+        self._pass_on(entry)
 
     def modify(self, graph: Graph, text: str, continue_from: str, targets: Sequence[str]) -> None:
         """See `GraphRuns.modify`; of a graph of several actors only if all of them can do it.
@@ -139,55 +142,60 @@ class Together:
             targets: Who was told so directly.
 
         Raises:
-            GraphRefusedError: See there. That others cannot do it, or do not answer, is told later.
+            GraphRefusedError: See there and `command`. That others cannot do it, or do not answer, is told
+                later.
         """
-        run = self._runs.get(graph.name)
-        session = run.peers if run is not None and isinstance(run.peers, Session) else None
+        if continue_from:
+            self._refuse_if_stopped(graph.name)
+        session = self._session(graph.name)
         if session is None or not session.others:
             self._runs.modify(graph, continue_from)
             return
         self._runs.check_modify(graph, continue_from)
-        self._spawn(self._modify_all(session, graph, text, continue_from, targets))
+        change = SyncEntry(
+            kind="command",
+            graph_name=graph.name,
+            command="modify",
+            targets=tuple(targets),
+            graph_json=text,
+            continue_from=continue_from,
+        )
+        self._spawn(self._modify_all(session, graph, change))
 
-    async def _modify_all(
-        self, session: Session, graph: Graph, text: str, continue_from: str, targets: Sequence[str]
-    ) -> None:
+    async def _modify_all(self, session: Session, graph: Graph, change: SyncEntry) -> None:
         async with session.changing:
-            refusals = await session.ask(text, continue_from)
-            problems = [
-                Problem("", f"{name}: {reason}" if reason else self._sync.silence(name), "", "peer_refused")
-                for name, reason in refusals.items()
+            refusals = [
+                f"{name}: {reason}" if reason else self._sync.absence(name, "did not answer")
+                for name, reason in (await session.ask(change)).items()
             ]
             try:
-                if problems:
+                if refusals:
+                    problems = [Problem("", text, "", "peer_refused") for text in refusals]
                     raise GraphRefusedError(graph.name, problems)
-                self._runs.modify(graph, continue_from)
+                self._runs.modify(graph, change.continue_from)
             except GraphRefusedError as error:
                 self._refuse("umrf_graph_modify", graph.name, error.problems)
                 return
-            self.pass_on("modify", graph.name, targets, graph_json=text, continue_from=continue_from)
-
-    def pass_on(self, command: Command, name: str, targets: Sequence[str] = (), **more: str) -> None:
-        """Tell the other actors of a graph what was done with it here.
-
-        Args:
-            command: What was done.
-            name: The graph.
-            targets: Who was told so directly.
-            **more: Fields of the entry.
-        """
-        run = self._runs.get(name)
-        if run is not None and isinstance(run.peers, Session):
-            entry = SyncEntry(
-                kind="command", graph_name=name, command=command, targets=tuple(targets), **more
-            )
-            run.peers.tell(entry)
+            self._pass_on(change)
 
     def hold(self) -> None:
         """An emergency stop has paused what goes on here: nor may the others go on with it."""
         for run in self._runs.all:
             if run.state in (GraphState.RUNNING, GraphState.PAUSED):
-                self.pass_on("pause", run.name)
+                self._pass_on(SyncEntry(kind="command", graph_name=run.name, command="pause"))
+
+    def _session(self, name: str) -> Session | None:
+        run = self._runs.get(name)
+        return run.peers if run is not None and isinstance(run.peers, Session) else None
+
+    def _pass_on(self, entry: SyncEntry) -> None:
+        if session := self._session(entry.graph_name):
+            session.tell(entry)
+
+    def _refuse_if_stopped(self, name: str) -> None:
+        session = self._session(name)
+        if stopped := self._sync.stopped(session.others if session else ()):
+            raise stop_latched(name, ", ".join(stopped))
 
     def take(self, notice: SyncNotice) -> None:
         """Something came from another engine."""
@@ -195,22 +203,20 @@ class Together:
 
     def _hear(self, session: Session, entry: SyncEntry) -> None:
         """Another engine passes on a command, or asks whether a change could be made here."""
-        run = self._runs.get(entry.graph_name)
-        if run is None or run.peers is not session or not self._names.isdisjoint(entry.targets):
+        name, refused = entry.graph_name, ""
+        if self._session(name) is not session or not self._names.isdisjoint(entry.targets):
             return
         try:
             if entry.kind == "ask":
                 self._runs.check_modify(read_graph(entry.graph_json), entry.continue_from)
             else:
                 self._obey(entry)
-            refused = ""
         except GraphRefusedError as error:
             refused = "; ".join(map(str, error.problems)) or "refused"
             if entry.kind == "command":
-                self._refuse(f"sync {entry.command}", entry.graph_name, error.problems)
+                self._refuse(f"sync {entry.command}", name, error.problems)
         if entry.kind == "ask":
-            name, answers = entry.graph_name, entry.id
-            session.tell(SyncEntry(kind="answer", graph_name=name, id=answers, message=refused))
+            session.tell(SyncEntry(kind="answer", graph_name=name, id=entry.id, message=refused))
 
     def note(self, status: ActorStatus) -> None:
         """Another actor lives."""
