@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import math
+import threading
+from typing import Any
 
 import numpy
 import pytest
@@ -17,7 +19,7 @@ from parley.umrf.catalogue import Catalogue
 from parley.umrf.io import read_graph
 from parley.umrf.model import GraphState, NodeState, Result
 
-from .spec_actions import chain, insist, no_op, node
+from .spec_actions import chain, insist, no_op, node, planner_chain
 from .watched import Watched, until
 
 
@@ -163,6 +165,58 @@ async def test_a_running_node_is_seen_and_heard_also_after_the_graph_was_modifie
     gate.set()
     await until(lambda: watched.log("Talk_0") == ["a line"])
     await watched.run.close()
+
+
+async def test_a_node_that_runs_is_the_same_after_a_modify() -> None:
+    gate = asyncio.Event()
+    handles: dict[str, Any] = {}
+
+    @action
+    async def talk(ctx: RunHandle) -> None:
+        """Say a line when it is time."""
+        handles[ctx.node] = ctx
+        await gate.wait()
+        ctx.log("a line")
+
+    graph = chain("g", [lone("Talk"), node("NoOp")])
+    watched = Watched(graph, catalogue=Catalogue([talk.spec, no_op.spec]))
+    watched.run.start()
+    await until(lambda: handles)
+    before = handles["Talk_0"].item
+    for count in range(1, 4):
+        names = ["Talk_0", *(f"NoOp_{index}" for index in range(count))]
+        longer = [lone("Talk"), *(node("NoOp", index) for index in range(count))]
+        watched.run.modify(read_graph(chain("g", longer)))
+        assert handles["Talk_0"].item is before
+    gate.set()
+    assert await watched.run.wait() is Result.ON_TRUE
+    assert (before.state, [line.message for line in before.log]) == (NodeState.FINISHED, ["a line"])
+    assert [item.full_name for item in watched.run.snapshot().nodes] == names
+
+
+@pytest.mark.spec("11.5")
+async def test_what_was_taken_out_of_a_graph_may_still_log() -> None:
+    released = threading.Event()
+    begun: list[RunHandle] = []
+
+    @action
+    def hang(ctx: RunHandle) -> None:
+        """Hear nothing."""
+        begun.append(ctx)
+        released.wait(5)
+        ctx.log("late")
+
+    graph = planner_chain("g", [lone("Hang"), node("NoOp")])
+    watched = Watched(graph, catalogue=Catalogue([hang.spec, no_op.spec]), stop_timeout_s=0.01)
+    watched.run.start()
+    await until(lambda: begun)
+    watched.run.end_node("Hang_0")
+    await until(lambda: watched.state("Hang_0") is NodeState.ERROR)
+    watched.run.modify(read_graph(planner_chain("g", [node("NoOp")])))
+    assert watched.state("NoOp_0") is NodeState.UNINITIALIZED
+    released.set()
+    await until(lambda: watched.run.idle)
+    assert [item.full_name for item in watched.run.snapshot().nodes] == ["NoOp_0"]
 
 
 async def test_a_sub_graph_stands_still_when_paused_also_after_the_graph_was_modified() -> None:

@@ -193,7 +193,7 @@ class GraphRuns:
 
     def check_modify(self, graph: Graph, continue_from: str = "") -> None:
         """Refuse what `modify` would refuse now, without doing it."""
-        self._to_change(graph, continue_from).modified(graph, continue_from)
+        self._to_change(graph, continue_from).check_modify(graph, continue_from)
 
     def _to_change(self, graph: Graph, continue_from: str) -> GraphRun:
         run = self._get(graph.name)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable
+from collections.abc import Container, Iterable, Mapping
 from typing import Any
 
 from parley.errors import GraphRefusedError, Problem
 from parley.umrf.flow import Flow, FlowNode
+from parley.umrf.model import Node
 
 __all__ = ["check_entry", "check_removed", "values_to_continue"]
 
@@ -49,12 +50,15 @@ def check_entry(graph_name: str, flow: Flow) -> None:
         raise GraphRefusedError(graph_name, [problem])
 
 
-def values_to_continue(graph_name: str, flow: Flow, name: str, going_on: Container[str]) -> dict[str, Any]:
+def values_to_continue(
+    graph_name: str, flow: Flow, form: Mapping[str, Node], name: str, going_on: Container[str]
+) -> dict[str, Any]:
     """The inputs that a node takes from the past when it is run out of turn.
 
     Args:
         graph_name: For the refusal.
-        flow: The graph as it will be.
+        flow: The graph as it is.
+        form: Its nodes as they will be, by full name.
         name: Full name of the node; empty for none.
         going_on: Full names of nodes whose action has not ended.
 
@@ -63,16 +67,16 @@ def values_to_continue(graph_name: str, flow: Flow, name: str, going_on: Contain
     """
     if not name:
         return {}
-    item = flow.nodes.get(name)
-    if item is None:
-        known = ", ".join(flow.nodes) or "none"
+    if name not in form:
+        known = ", ".join(form) or "none"
         raise _refusal(graph_name, "unknown_node", f"has no node {name!r}", f"its nodes are: {known}")
-    if item.active:
+    item = flow.nodes.get(name)
+    if item is not None and item.active:
         return {}
     if name in going_on:
         raise _refusal(graph_name, "still_stopping", f"is still stopping {name}", "wait for it")
-    past = flow.past_values(item)
-    if missing := [need for need in item.missing_inputs() if need not in past]:
+    past, missing = flow.past_values(name, form)
+    if missing:
         raise _refusal(
             graph_name,
             "missing_input",

@@ -9,7 +9,7 @@ from __future__ import annotations
 import asyncio
 import functools
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Final
 
@@ -18,7 +18,7 @@ import structlog
 from parley.clock import Clock
 from parley.errors import GraphRefusedError, Problem
 from parley.messages.failure import FailureReport
-from parley.umrf.action import RunHandle
+from parley.umrf.action import ActionSpec, RunHandle
 from parley.umrf.admission import check_entry, check_removed, values_to_continue
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.check import resolve
@@ -154,7 +154,8 @@ class GraphRun:
         over = self.state in ENDED and (continue_from or self.idle)
         if over or self.state is GraphState.STOPPING:
             raise self._refusal("graph_ended", f"{self.name} is {self.state}", "start it anew")
-        past = values_to_continue(self.name, self._flow, continue_from, self._runs)
+        form = {name: item.node for name, item in self._flow.nodes.items()}
+        past = values_to_continue(self.name, self._flow, form, continue_from, self._runs)
         self._go_on(continue_from, past, "resume")
 
     def stop(self) -> None:
@@ -192,12 +193,10 @@ class GraphRun:
         Raises:
             GraphRefusedError: With every reason; then nothing has changed.
         """
-        changed, flow, past = self.modified(graph, continue_from)
-        self._flow = flow
-        for name, run in self._runs.items():
-            run.item = flow.nodes.get(name, run.item)
+        changed, specs, past = self._checked(graph, continue_from)
+        self._flow.change(changed, specs)
         self._graph = replace(changed, description=self._graph.description)
-        self._later.keep(flow.nodes)
+        self._later.keep(self._flow.nodes)
         self._announce.graph(self.state, "modify", self.result)
         if continue_from:
             self._go_on(continue_from, past, "modify")
@@ -227,15 +226,20 @@ class GraphRun:
             if item.state is not NodeState.UNINITIALIZED:
                 self._announce.node(item, "restore")
 
-    def modified(self, graph: Graph, continue_from: str = "") -> tuple[Graph, Flow, Mapping[str, Any]]:
-        """What `modify` would make of it, without doing so; raises as that does."""
+    def check_modify(self, graph: Graph, continue_from: str = "") -> None:
+        """Refuse what `modify` would refuse now, without doing it."""
+        self._checked(graph, continue_from)
+
+    def _checked(
+        self, graph: Graph, continue_from: str
+    ) -> tuple[Graph, Sequence[ActionSpec], Mapping[str, Any]]:
         if self.state in ENDED or self.state is GraphState.STOPPING:
             text = f"{self.name} is {self.state} and cannot be changed"
             raise self._refusal("graph_ended", text, "start a new graph")
         resolved, specs = self._resolve(replace(graph, name=self.name))
-        check_removed(self.name, self._active(), {node.full_name for node in graph.nodes})
-        flow = Flow(resolved, specs, previous=self._flow)
-        return resolved, flow, values_to_continue(self.name, flow, continue_from, self._runs)
+        form = {node.full_name: node for node in resolved.nodes}
+        check_removed(self.name, self._active(), form)
+        return resolved, specs, values_to_continue(self.name, self._flow, form, continue_from, self._runs)
 
     async def wait(self) -> Result:
         """Wait until the graph has ended or halted; how it ended."""

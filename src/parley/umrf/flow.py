@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any, Final, Literal, NamedTuple
 
 from parley.errors import ActionFailure, FailureCode
@@ -67,12 +67,12 @@ class FlowNode:
     """The full name."""
     node: Node
     spec: ActionSpec
-    parents: dict[str, ParentRelation] = field(default_factory=dict)
+    parents: dict[str, ParentRelation] = field(init=False)
     """By full name, the hidden entry included."""
-    children: tuple[ChildRelation, ...] = ()
+    children: tuple[ChildRelation, ...] = field(init=False)
     """The hidden exit included, as the last."""
     state: NodeState = NodeState.UNINITIALIZED
-    values: dict[str, Any] = field(default_factory=dict)
+    values: dict[str, Any] = field(init=False)
     """Inputs that have data now."""
     transferred: frozenset[str] = frozenset()
     """Those of `values` that came along an edge; they are dropped after the run (4.3)."""
@@ -97,6 +97,36 @@ class FlowNode:
     stale: set[str] = field(default_factory=set, kw_only=True, repr=False)
     """Of its flow: full names of nodes that changed since they were last shown."""
     _shown: Node | None = field(default=None, init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        self.values = _given_values(self.node)
+        self._relate()
+
+    def _relate(self) -> None:
+        """Take the relations of the description; its graph adds those to the entry and the exit."""
+        self.parents = {relation.node.full_name: relation for relation in self.node.parents}
+        self.children = self.node.children
+        self.touch()
+
+    def change(self, node: Node) -> None:
+        """Step 4 of 11.5: relations and limits are replaced, given values overwrite, nothing else."""
+        given = self.taken_from(node)
+        self.values |= given
+        self.transferred = self.transferred.difference(given)
+        self.node = self.node._replace(
+            parents=node.parents, children=node.children, retries=node.retries, timeout_s=node.timeout_s
+        )
+        self._relate()
+        self.received &= self.parents.keys() | {ENTRY.full_name}
+
+    def taken_from(self, node: Node) -> dict[str, Any]:
+        """The inputs that another description of it brings."""
+        declared, given = self.node.input_parameters, node.input_parameters
+        return {
+            name: value
+            for name, value in _given_values(node).items()
+            if name in declared and _accepts(declared[name], given[name].type, value)
+        }
 
     def touch(self) -> None:
         """Something about the node is different now; to be called after each change."""
@@ -176,6 +206,11 @@ class FlowNode:
         self.touch()
 
 
+def _given_values(node: Node) -> dict[str, Any]:
+    """The inputs for which the description of a node has data."""
+    return {name: item.value for name, item in node.input_parameters.items() if item.has_data}
+
+
 def _valued(declared: Mapping[str, Parameter], values: Mapping[str, Any]) -> dict[str, Parameter]:
     """The declared parameters holding exactly `values`."""
     return {name: item.with_value(values.get(name)) for name, item in declared.items()}
@@ -187,32 +222,33 @@ class Flow:
     Args:
         graph: A checked graph whose inputs are merged with the descriptors.
         specs: What runs each of its nodes.
-        previous: Another form of it (11.5), of which nodes that stay keep state, data and seen edges.
     """
 
-    def __init__(self, graph: Graph, specs: Sequence[ActionSpec], previous: Flow | None = None) -> None:
-        self.entry = graph.entry
-        self.exit = {relation.node.full_name: relation for relation in graph.exit}
+    def __init__(self, graph: Graph, specs: Sequence[ActionSpec]) -> None:
+        self.nodes: dict[str, FlowNode] = {}
         self.started: bool = False
         self.exit_received: set[str] = set()
         self.exit_given: set[str] = set()
         self.exit_values: dict[str, Any] = {}
         """What the exit was given: the outputs of the graph as a whole (6)."""
-        old: Mapping[str, FlowNode] = {}
-        if previous is not None:
-            self.started, old = previous.started, previous.nodes
-            self.exit_received |= previous.exit_received & self.exit.keys()
-            self.exit_given |= previous.exit_given
-            self.exit_values |= previous.exit_values
-        self.nodes: dict[str, FlowNode] = {}
         self._stale: set[str] = set()
         self._shown: dict[str, Node] = {}
+        self.change(graph, specs)
+
+    def change(self, graph: Graph, specs: Sequence[ActionSpec]) -> None:
+        """Take on another form (11.5): nodes that stay are the same and keep state, data and seen edges."""
+        old, self.nodes = self.nodes, {}
         for node, spec in zip(graph.nodes, specs, strict=True):
             name = node.full_name
-            kept = old.get(name)
-            self.nodes[name] = (
-                _new(name, node, spec, self._stale) if kept is None else _carry(kept, node, self._stale)
-            )
+            if (item := old.get(name)) is None:
+                item = FlowNode(name, node, spec, stale=self._stale)
+            else:
+                item.change(node)
+            self.nodes[name] = item
+        self._shown = {}
+        self.entry = graph.entry
+        self.exit = {relation.node.full_name: relation for relation in graph.exit}
+        self.exit_received &= self.exit.keys()
         for relation in self.entry:
             item = self.nodes[relation.node.full_name]
             item.parents[ENTRY.full_name] = ParentRelation(ENTRY)
@@ -278,7 +314,7 @@ class Flow:
                     effects.append(Effect("bypassed", child.name, result))
                     waiting.append(child.name)
                 elif response is not Response.IGNORE:
-                    given, refused = _carried(parent, outputs, child, relation)
+                    given, refused = _carried(parent, outputs, child.node.input_parameters, relation)
                     if given:
                         child.take(given)
                     effects += self._respond(child, response, refused)
@@ -290,7 +326,8 @@ class Flow:
             self._shown = {name: item.snapshot() for name, item in self.nodes.items()}
         while self._stale:
             name = self._stale.pop()
-            self._shown[name] = self.nodes[name].snapshot()
+            if name in self.nodes:  # what was taken out may still log
+                self._shown[name] = self.nodes[name].snapshot()
         return tuple(self._shown.values())
 
     def reachable(self, name: str) -> list[FlowNode]:
@@ -346,17 +383,30 @@ class Flow:
         lacking = sorted(self.exit_needs.keys() - self.exit_given) if ends else ()
         return f"the exit was not given {', '.join(lacking)}" if lacking else ""
 
-    def past_values(self, item: FlowNode) -> dict[str, Any]:
-        """For a node that is run out of turn (11.4): what it lacks, as its parents or it had it last."""
-        lacking = item.missing_inputs()
-        found = {name: item.last_values[name] for name in lacking if name in item.last_values}
-        for name in item.parents:
-            parent = self.nodes.get(name)
-            for relation in parent.children if parent is not None else ():
-                if parent is not None and relation.node == item.node.ref:
-                    given, _ = _carried(parent, parent.outputs, item, relation)
-                    found |= {name: value for name, value in given.items() if name in lacking}
-        return found
+    def past_values(self, name: str, form: Mapping[str, Node]) -> tuple[dict[str, Any], list[str]]:
+        """For a node that is run out of turn (11.4): what it lacks, as its parents or it had it last.
+
+        Args:
+            name: Its full name.
+            form: The nodes of the graph, as they are or will be, by full name.
+
+        Returns:
+            The values, and the inputs that it lacks even so.
+        """
+        item, node = self.nodes.get(name), form[name]
+        if item is None:
+            declared, has, found = node.input_parameters, _given_values(node), {}
+        else:
+            new = item.taken_from(node) if node is not item.node else {}
+            declared, has, found = item.node.input_parameters, item.values | new, dict(item.last_values)
+        for edge in node.parents:
+            parent = self.nodes.get(edge.node.full_name)
+            for relation in form[edge.node.full_name].children if parent is not None else ():
+                if parent is not None and relation.node == node.ref:
+                    found |= _carried(parent, parent.outputs, declared, relation)[0]
+        lacking = [name for name, known in declared.items() if known.required and name not in has]
+        past = {name: found[name] for name in lacking if name in found}
+        return past, [name for name in lacking if name not in past]
 
     def _respond(self, child: FlowNode, response: Response, refused: str) -> list[Effect]:
         """Do what the edge says once the child is ready; a value that is not allowed is the child's error."""
@@ -389,52 +439,8 @@ class Flow:
         return all(name in self.exit_received for name, edge in self.exit.items() if edge.required)
 
 
-def _new(name: str, node: Node, spec: ActionSpec, stale: set[str]) -> FlowNode:
-    values = {name: item.value for name, item in node.input_parameters.items() if item.has_data}
-    stale.add(name)
-    return FlowNode(
-        name=name,
-        node=node,
-        spec=spec,
-        parents=_parents(node),
-        children=node.children,
-        values=values,
-        stale=stale,
-    )
-
-
-def _parents(node: Node) -> dict[str, ParentRelation]:
-    return {relation.node.full_name: relation for relation in node.parents}
-
-
-def _carry(kept: FlowNode, node: Node, stale: set[str]) -> FlowNode:
-    """Step 4 of 11.5: relations and limits are replaced, values that are given overwrite, nothing else."""
-    parents, entered = _parents(node), {ENTRY.full_name} & kept.received
-    carried = replace(
-        kept,
-        node=kept.node._replace(
-            parents=node.parents,
-            children=node.children,
-            retries=node.retries,
-            timeout_s=node.timeout_s,
-        ),
-        parents=parents,
-        children=node.children,
-        values=dict(kept.values),
-        received=kept.received & parents.keys() | entered,
-        stale=stale,
-    )
-    for name, given in node.input_parameters.items():
-        own = kept.node.input_parameters.get(name)
-        if own is not None and given.has_data and _accepts(own, given.type, given.value):
-            carried.values[name] = given.value
-            carried.transferred -= {name}
-    carried.touch()
-    return carried
-
-
 def _carried(
-    parent: FlowNode, outputs: Mapping[str, Any], child: FlowNode, relation: ChildRelation
+    parent: FlowNode, outputs: Mapping[str, Any], inputs: Mapping[str, Parameter], relation: ChildRelation
 ) -> tuple[dict[str, Any], str]:
     """What an edge brings to the inputs of the same (renamed) name, and why not, if a value is refused."""
     renamed = dict(relation.remap)
@@ -442,7 +448,7 @@ def _carried(
     refused = ""
     for source, value in outputs.items():
         name = renamed.get(source, source)
-        own, declared = child.node.input_parameters.get(name), parent.node.output_parameters.get(source)
+        own, declared = inputs.get(name), parent.node.output_parameters.get(source)
         if own is None or declared is None:
             continue
         if _accepts(own, declared.type, value):

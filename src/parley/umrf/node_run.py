@@ -160,7 +160,6 @@ class NodeRun:
         self.restart_wanted = False
         self.last_log = ""
         self.item = item
-        """The node; another object once the graph is modified."""
         values = item.values.items()  # lists are its own: what it does to them must not reach the graph
         self._values = {name: value[:] if type(value) is list else value for name, value in values}
         self._loop = asyncio.get_running_loop()
