@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from parley.messages.chat import ActionCall
 from parley.messages.status import PlanStep, PlanUpdate
-from parley.terminal.plan import Progress, bar, compare, in_words, lines_of, plan_rows, step_row
+from parley.terminal.plan import Progress, bar, call_in_words, compare, lines_of, plan_rows, step_row
 from tests.terminal.robots import call, plan, step
 
 
@@ -26,7 +26,7 @@ def flat(rows: list[list[tuple[str, str]]]) -> list[str]:
     ],
 )
 def test_what_nothing_was_written_of_reads_as_the_words_of_its_action(action: ActionCall, words: str) -> None:
-    assert in_words(action) == words
+    assert call_in_words(action) == words
 
 
 def test_a_step_reads_as_code_wrote_it_whatever_a_model_says_of_it() -> None:

@@ -119,7 +119,7 @@ async def test_a_node_has_a_time_limit_of_its_own_for_each_attempt() -> None:
         "start",
         "retry",
     ]
-    assert "WaitFor took longer than 0.02 s" in watched.log("WaitFor_0")[-1]
+    assert "Wait for took longer than 0.02 s" in watched.log("WaitFor_0")[-1]
 
 
 async def test_a_graph_inside_has_the_time_limit_of_its_node() -> None:

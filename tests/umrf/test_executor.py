@@ -146,7 +146,7 @@ async def test_a_plain_log_line_does_not_hide_the_reason_of_a_defect() -> None:
     watched.run.start()
     await watched.run.wait()
     assert FailureReport.parse(watched.log("RaiseError_0")[-1]).message == (
-        "RaiseError failed: RuntimeError: as planned."
+        "Raise error failed: RuntimeError: as planned."
     )
 
 

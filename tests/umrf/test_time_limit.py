@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import time
 from typing import Any
 
@@ -20,6 +21,7 @@ from parley.umrf.io import read_graph
 from parley.umrf.model import GraphState, Result
 
 ended: list[str] = []
+released = asyncio.Event()
 
 
 @action(timeout_s=10.0)
@@ -61,12 +63,20 @@ async def stubborn(ctx: RunHandle) -> None:
         ended.append("swallowed")
 
 
+@action(timeout_s=0.05)
+async def numb(ctx: RunHandle) -> None:
+    """Take every cancellation for nothing, until it is let go."""
+    while not released.is_set():
+        with contextlib.suppress(asyncio.CancelledError):
+            await released.wait()
+
+
 @action(capabilities=("arm", "camera"))
 async def grasp(ctx: RunHandle) -> None:
     """Needs an arm."""
 
 
-CATALOGUE = Catalogue(item.spec for item in (limited, quick, plain, deaf, stubborn, grasp))
+CATALOGUE = Catalogue(item.spec for item in (limited, quick, plain, deaf, numb, stubborn, grasp))
 
 
 def graph(name: str) -> dict[str, Any]:
@@ -148,6 +158,20 @@ async def test_a_thread_that_does_not_notice_is_left_behind(monkeypatch: pytest.
     run = started("Deaf", WallClock())
     assert await run.wait() is Result.ON_ERROR
     assert code_of(run, "Deaf_0") is FailureCode.TIMED_OUT
+
+
+async def test_an_action_that_takes_its_time_out_for_nothing_has_failed_all_the_same(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(node_run, "DEAF_S", 0.05)
+    released.clear()
+    run = started("Numb", WallClock())
+    assert await asyncio.wait_for(run.wait(), 5) is Result.ON_ERROR
+    assert code_of(run, "Numb_0") is FailureCode.TIMED_OUT
+    assert not run.idle
+    released.set()
+    await settle()
+    assert run.idle
 
 
 async def test_a_stop_during_a_limited_action_is_a_stop() -> None:

@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 from parley.messages.chat import ActionCall, SystemCommand
-from parley.messages.plain import one_line
+from parley.messages.plain import in_words, one_line
 from parley.messages.status import ActionInfo
 from parley.sentences import Sentence, sentence
 from parley.world.object_map import MapObject
@@ -24,7 +24,6 @@ __all__ = ["Labels", "command_label", "digest_of", "for_next", "labels_of", "lin
 Labels = tuple[Sentence, ...]
 
 _HOLE: Final = re.compile(r"\{([^{}]*)\}")
-_WORD_STARTS: Final = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|[_\s]+")
 _POSE: Final = "pose::"
 _X, _Y = f"{_POSE}position::x", f"{_POSE}position::y"
 _NEAR_M: Final = 2.0
@@ -136,12 +135,12 @@ def _label(call: ActionCall, info: ActionInfo | None, place: str) -> Sentence:
         fills = {hole: f"“{arguments.get(hole, place)}”" for hole in _HOLE.findall(phrase)}
         what = Sentence.of(phrase, dict(fills))
     else:
-        words = _in_words(call.name)
+        words = in_words(call.name)
         what = sentence("{what}", what=words[:1].upper() + words[1:])
     rest = {name: value for name, value in arguments.items() if name not in named}
     if not rest:
         return what
-    told = ", ".join(f"{_in_words(name.rpartition('::')[2])} “{value}”" for name, value in rest.items())
+    told = ", ".join(f"{in_words(name.rpartition('::')[2])} “{value}”" for name, value in rest.items())
     return sentence("{what}: {arguments}", what=what, arguments=told)
 
 
@@ -201,10 +200,6 @@ def _by_map(x: Any, y: Any, objects: Sequence[MapObject]) -> str:
     ]
     distance_m, name = min(distances, default=(math.inf, ""))
     return f"{one_line(name)} ({point})" if distance_m <= _NEAR_M else point
-
-
-def _in_words(name: str) -> str:
-    return " ".join(part.lower() for part in _WORD_STARTS.split(one_line(name)) if part)
 
 
 def _said(value: object) -> str:

@@ -8,7 +8,7 @@ from typing import Annotated, Final
 
 from pydantic import AfterValidator
 
-__all__ = ["LineText", "ShownText", "named_in", "one_line", "visible"]
+__all__ = ["LineText", "ShownText", "in_words", "named_in", "one_line", "visible"]
 
 _UNSEEN: Final = re.compile(
     "["
@@ -23,6 +23,7 @@ _UNSEEN: Final = re.compile(
 _SPEAKER: Final = re.compile(r"\s*\n+\s*(?=[\W_]*\w[\w .'’-]{0,40}?\s*[\W_]*\s*[:>›»|])")
 """Where a line would begin as if somebody else spoke ("Kim: yes"): it goes on in the line before."""
 _EMOJI_STYLE: Final = "\ufe0f"
+_WORD_STARTS: Final = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|[_\s]+")
 
 
 def visible(text: str) -> str:
@@ -37,6 +38,11 @@ def visible(text: str) -> str:
 def one_line(text: str) -> str:
     """`visible` for what has one line of its own: labels, names, choices; no line in it can be made up."""
     return " ".join(visible(text).split())
+
+
+def in_words(name: str) -> str:
+    """What an action or a parameter is called, as people read it: ``TakePicture`` is "take picture"."""
+    return " ".join(part.lower() for part in _WORD_STARTS.split(one_line(name)) if part)
 
 
 def named_in(text: str, names: Iterable[str]) -> tuple[str, ...]:

@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
 from parley.messages.chat import ActionCall
+from parley.messages.plain import in_words
 from parley.messages.status import PlanStep, PlanUpdate
 from parley.sentences import SpokenLanguage, in_language, sentence
 from parley.terminal.lines import Fragments
 
-__all__ = ["ICONS", "Progress", "bar", "compare", "in_words", "is_over", "lines_of", "plan_rows", "step_row"]
+__all__ = [
+    "ICONS",
+    "Progress",
+    "bar",
+    "call_in_words",
+    "compare",
+    "is_over",
+    "lines_of",
+    "plan_rows",
+    "step_row",
+]
 
 ICONS = {
     "queued": "○",
@@ -39,7 +49,6 @@ STATES: Final = {
 """Step state in words."""
 _STYLES = {"running": "class:now", "finished": "class:done", "failed": "class:bad", "waiting": "class:ask"}
 _ALONE = ("failed", "waiting", "paused", "stopped")
-_WORD_STARTS = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|[_\s]+")
 _MAX_LABEL_CHARS = 60
 
 
@@ -55,14 +64,13 @@ class Progress:
 
 def _label(step: PlanStep) -> str:
     """A step in the words that code wrote of it, as it was approved and is told when it is over."""
-    return step.label or in_words(step.action)
+    return step.label or call_in_words(step.action)
 
 
-def in_words(call: ActionCall) -> str:
+def call_in_words(call: ActionCall) -> str:
     """What an action is called and given, where nothing else was written of it."""
-    words = " ".join(part.lower() for part in _WORD_STARTS.split(call.name) if part)
     given = [str(p.value) for p in call.input_parameters.values() if p.type == "string" and p.has_data]
-    return f"{words}: {', '.join(given)}" if given else words
+    return f"{in_words(call.name)}: {', '.join(given)}" if given else in_words(call.name)
 
 
 def bar(fraction: float, width: int = 16) -> str:

@@ -21,7 +21,7 @@ from parley.messages.status import (
 )
 from parley.sentences import SpokenLanguage, in_language, sentence
 from parley.terminal.lines import Fragments, Line, LineKind
-from parley.terminal.plan import Progress, compare, in_words, is_over, lines_of, plan_rows, step_row
+from parley.terminal.plan import Progress, call_in_words, compare, is_over, lines_of, plan_rows, step_row
 
 __all__ = ["LOST_AFTER_S", "OperatorView", "Question", "RobotView"]
 
@@ -333,7 +333,7 @@ class OperatorView:
         robot.pending = [item for item in robot.pending if item.id != proposal.id]
         robot.pending.append(proposal)
         heading = Line("heading", self.say("{robot} would do this:", robot=robot.name))
-        lines = proposal.lines or tuple(map(in_words, proposal.steps))
+        lines = proposal.lines or tuple(map(call_in_words, proposal.steps))
         rows = [
             Line("step", f"{number}. {in_language(text, self.language)}")
             for number, text in enumerate(lines, 1)

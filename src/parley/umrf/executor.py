@@ -28,7 +28,7 @@ from parley.umrf.model import ENDED, NOTHING, Graph, GraphState, NodeState, Resu
 from parley.umrf.node_run import Ended, Inside, NodeRun
 from parley.umrf.other_runs import RemoteRun, SubgraphRun
 from parley.umrf.remote import Peers, RemoteEnd, RemoteSpec
-from parley.umrf.reports import failure_lines, stop_timed_out_text
+from parley.umrf.reports import failure_lines, overdue_text, stop_timed_out_text
 from parley.umrf.rounds import Rounds
 from parley.umrf.saved import Later, SavedRun, kept_outputs, load, save_frame, save_node
 from parley.umrf.slices import in_slices
@@ -397,6 +397,17 @@ class GraphRun:
             self._node_over(item, ending.result, ending.outputs, "run", ending.facts, failed=False)
         else:
             self._node_over(item, Result.ON_ERROR, {}, "run")
+
+    def overdue(self, run: NodeRun) -> None:
+        """What runs takes its time-out for nothing: it failed, and is left to itself without its drive."""
+        item = self._flow.nodes.get(run.node)
+        if item is None or not item.active or self._runs.get(run.node) is not run:
+            return
+        if item.state is NodeState.STOPPING:
+            return  # a stop has a time-out of its own
+        log.error("action goes on after its time-out", graph=self.name, node=run.node)
+        item.note(overdue_text(item.node.name), self.clock.unix_ms())
+        self._node_over(item, Result.ON_ERROR, {}, "run")
 
     def _tries_again(self, item: FlowNode, run: NodeRun, ending: Ended | BaseException) -> bool:
         """Begin another attempt of a node that failed, unless there were enough or it would make no sense."""

@@ -41,6 +41,8 @@ _FINAL: Final = frozenset(
 """Failures that trying again does not change, or should not."""
 THREAD_GRACE_S: Final = 2.0
 """Wall time that a plain action has to notice that its time is over, before its thread is abandoned."""
+DEAF_S: Final = 5.0
+"""Wall time that any other has to end after it was cancelled for that reason; then it has failed."""
 
 
 _GOING: Final = asyncio.Event()
@@ -137,6 +139,10 @@ class Host(Protocol):
         """Told once a run is over, however it ended."""
         ...
 
+    def overdue(self, run: NodeRun) -> None:
+        """Told of a run whose time is over and that goes on although it was cancelled."""
+        ...
+
     def begin_inner(self, run: NodeRun) -> Inside:
         """Run the graph behind a node, with its inputs."""
         ...
@@ -231,7 +237,10 @@ class NodeRun:
     def _expired(self) -> float:
         self._stopping = True
         self.motion.revoke()
-        return THREAD_GRACE_S if self._threaded else 0.0
+        if self._threaded:
+            return THREAD_GRACE_S
+        self._stop_timer = self._loop.call_later(DEAF_S, self._host.overdue, self)
+        return 0.0
 
     def _end(self, _: asyncio.Task[Ended]) -> None:
         self._over = True

@@ -8,6 +8,7 @@ import structlog
 
 from parley.errors import ActionFailure, FailureCode
 from parley.messages.failure import FailureReport
+from parley.messages.plain import in_words
 from parley.umrf.model import Node
 from parley.umrf.text import clean_text
 
@@ -16,6 +17,7 @@ __all__ = [
     "failure_text",
     "harmless",
     "is_report",
+    "overdue_text",
     "raised_text",
     "stop_timed_out_text",
     "text_of",
@@ -45,13 +47,14 @@ def failure_text(action: str, error: BaseException) -> str:
         except ValueError:  # its details are not what JSON can hold; the code and the sentence still count
             return FailureReport(message=text_of(error.message), code=error.code).to_text()
     if isinstance(error, asyncio.CancelledError):
-        return FailureReport(message=f"{action} was cancelled from inside.").to_text()
+        return FailureReport(message=f"{in_words(action).capitalize()} was cancelled from inside.").to_text()
     return FailureReport(message=raised_text(action, error), code=FailureCode.INTERNAL).to_text()
 
 
 def raised_text(action: str, error: BaseException) -> str:
     """What people read of a defect: a question may follow."""
-    return f"{action} failed: {type(error).__name__}: {text_of(error)}".rstrip(": .") + "."
+    what = in_words(action).capitalize()
+    return f"{what} failed: {type(error).__name__}: {text_of(error)}".rstrip(": .") + "."
 
 
 def harmless(error: BaseException) -> BaseException:
@@ -72,7 +75,13 @@ def text_of(told: object) -> str:
 
 def stop_timed_out_text(action: str, timeout_s: float) -> str:
     """The runtime message for an action that did not stop."""
-    message = f"{action} did not stop within {timeout_s:g} s."
+    message = f"{in_words(action).capitalize()} did not stop within {timeout_s:g} s."
+    return FailureReport(message=message, code=FailureCode.TIMED_OUT).to_text()
+
+
+def overdue_text(action: str) -> str:
+    """The runtime message for an action that goes on after its time-out."""
+    message = f"{in_words(action).capitalize()} did not end when its time was over."
     return FailureReport(message=message, code=FailureCode.TIMED_OUT).to_text()
 
 

@@ -9,6 +9,7 @@ from typing import TypeVar
 
 from parley.clock import Clock
 from parley.errors import ActionFailure, FailureCode
+from parley.messages.plain import in_words
 
 __all__ = ["PausableTime", "within"]
 
@@ -94,4 +95,6 @@ async def within(
 
 
 def _failure(name: str, limit_s: float) -> ActionFailure:
-    return ActionFailure(FailureCode.TIMED_OUT, f"{name} took longer than {limit_s:g} s.")
+    return ActionFailure(
+        FailureCode.TIMED_OUT, f"{in_words(name).capitalize()} took longer than {limit_s:g} s."
+    )

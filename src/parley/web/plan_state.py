@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Sequence
 from typing import Any, Final, Literal
 
 from parley.latest import Latest
 from parley.messages.chat import ActionCall
+from parley.messages.plain import in_words
 from parley.messages.rules import RiskClass
 from parley.messages.status import GraphEvent, PlanDecision, PlanProposal, PlanUpdate, Rejection
 from parley.umrf.model import Graph
@@ -29,8 +29,6 @@ __all__ = ["PlanBook"]
 PAST_KEPT: Final = 500
 OVER_KEPT: Final = 3
 """How many other graphs of a robot stay listed after they ended."""
-
-_WORD_STARTS = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|[_\s]+")
 
 
 class PlanBook:
@@ -301,9 +299,8 @@ def _changed(before: PlanView, steps: Sequence[StepView]) -> tuple[str, ...]:
 
 def _label(call: ActionCall) -> str:
     """A step that nobody gave a label: what the action is called and given; never a model's words."""
-    words = " ".join(part.lower() for part in _WORD_STARTS.split(call.name) if part)
     given = [str(p.value) for p in call.input_parameters.values() if p.type == "string" and p.has_data]
-    return f"{words}: {', '.join(given)}" if given else words
+    return f"{in_words(call.name)}: {', '.join(given)}" if given else in_words(call.name)
 
 
 def _action_of(node: str) -> str:
