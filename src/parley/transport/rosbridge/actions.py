@@ -19,8 +19,8 @@ from parley.messages.actions import Action, ActionWire, GoalId, GoalState, GoalS
 from parley.messages.topics import Topic
 from parley.transport.base import Handler, Outcome, Subscription, absolute
 from parley.transport.inbox import Inbox
+from parley.transport.remote import Codec
 from parley.transport.rosbridge.frames import Frame
-from parley.transport.rosbridge.values import Codec
 
 __all__ = ["REFUSED", "Asking", "RosbridgeActionClient"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import itertools
 import uuid
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Final, Self, TypeVar
@@ -19,8 +19,9 @@ from parley.errors import (
 )
 from parley.messages.actions import Action
 from parley.messages.topics import Service, Topic
-from parley.transport.base import Endpoint, Handler, Subscription, absolute
-from parley.transport.refusals import answered_already, check_request, too_late
+from parley.transport import remote
+from parley.transport.base import Endpoint, absolute
+from parley.transport.remote import RemoteTransport
 from parley.transport.rosbridge.actions import RosbridgeActionClient
 from parley.transport.rosbridge.ends import End, RosbridgePublisher, RosbridgeServerEnd, RosbridgeSubscription
 from parley.transport.rosbridge.frames import Frame, text_of
@@ -31,8 +32,6 @@ from parley.transport.rosbridge.values import Codec, Ros, spelt
 __all__ = ["RosbridgeTransport"]
 
 M = TypeVar("M")
-Req = TypeVar("Req")
-Res = TypeVar("Res")
 Goal = TypeVar("Goal")
 Result = TypeVar("Result")
 Feedback = TypeVar("Feedback")
@@ -44,7 +43,7 @@ ROSAPI_S: Final = 2.0
 log = structlog.get_logger(__name__)
 
 
-class RosbridgeTransport:
+class RosbridgeTransport(RemoteTransport[Graph]):
     """A robot's ROS from a machine without ROS: ``async with RosbridgeTransport("ws://192.168.1.5:9090"):``.
 
     A connection that is lost is opened again, and the bridge told of all ends once more; until then calls
@@ -69,6 +68,7 @@ class RosbridgeTransport:
         pace_ms: Mapping[str, int] = PACE_MS,
         authority: Path | None = None,
     ) -> None:
+        super().__init__(Graph())
         self._ros, self._look_s, self._pace_ms = ros, look_s, dict(pace_ms)
         self._line = Line(
             address,
@@ -78,16 +78,11 @@ class RosbridgeTransport:
             on_up=self._on_up,
             on_down=self._on_down,
         )
-        self._graph = Graph()
-        self._codecs: dict[tuple[type[Any], str], Codec[Any]] = {}
-        self._ends: list[End] = []
         self._latched: dict[str, Any] = {}
         """The last message of latched topics: a bridge sends it once for all subscriptions of a client."""
         self._actions: list[RosbridgeActionClient[Any, Any, Any]] = []
         self._answers: dict[str, asyncio.Future[Any]] = {}
         self._numbers = itertools.count(1)
-        self.handler_failures = 0
-        """How many times a handler raised; tests assert that it stays 0."""
 
     async def __aenter__(self) -> Self:
         await self._line.open()
@@ -99,16 +94,10 @@ class RosbridgeTransport:
     ) -> None:
         self._looking.cancel()
         await asyncio.gather(self._looking, return_exceptions=True)
-        servers = [end for end in self._ends if isinstance(end, RosbridgeServerEnd)]
         for client in list(self._actions):
             await client.close()
-        for end in list(self._ends):
-            if isinstance(end, RosbridgePublisher):
-                end.close()
-            else:
-                await end.close()
-        for server in servers:
-            await server.end()
+        await self._close_ends()
+        await self._end_tasks()
         self._fail_calls("this end was closed")
         await self._line.close()
 
@@ -122,76 +111,43 @@ class RosbridgeTransport:
         """How many frames came that could not be read."""
         return self._line.bad_frames
 
-    def publisher(self, topic: Topic[M]) -> RosbridgePublisher[M]:
-        """See `Transport.publisher`."""
-        self._graph.check(topic.name, topic.ros_type, service=False)
-        publisher = RosbridgePublisher(self, topic, self._codec(topic.type, topic.ros_type))
+    def _make_codec(self, python_type: type[M], ros_type: str) -> Codec[M]:
+        return Codec(python_type, ros_type, self._ros)
+
+    def _open_publisher(
+        self, topic: Topic[M], codec: remote.Codec[M], endpoint: Endpoint
+    ) -> RosbridgePublisher[M]:
+        publisher = RosbridgePublisher(self, topic, codec, endpoint)
         self._opened(publisher)
         return publisher
 
-    async def subscribe(
-        self,
-        topic: Topic[M],
-        handler: Handler[M],
-        *,
-        depth: int | None = None,
-        along: Subscription | None = None,
+    async def _open_subscription(
+        self, topic: Topic[M], codec: remote.Codec[M], endpoint: Endpoint, inbox: dict[str, Any]
     ) -> RosbridgeSubscription[M]:
-        """See `Transport.subscribe`."""
-        self._graph.check(topic.name, topic.ros_type, service=False)
-        subscription = RosbridgeSubscription(
-            self,
-            topic,
-            self._codec(topic.type, topic.ros_type),
-            {"handler": handler, "depth": depth, "along": along},
-        )
-        is_first = not self.has(subscription.endpoint)
+        subscription = RosbridgeSubscription(self, topic, codec, endpoint, inbox)
+        is_first = not self.has(endpoint)
         self._opened(subscription, tell=is_first)
-        if not is_first and topic.qos.latched and subscription.endpoint.name in self._latched:
-            subscription.take(self._latched[subscription.endpoint.name])
+        if not is_first and topic.qos.latched and endpoint.name in self._latched:
+            subscription.take(self._latched[endpoint.name])
         return subscription
 
-    async def serve(
-        self, service: Service[Req, Res], handler: Callable[[Req], Awaitable[Res]]
+    async def _open_server(
+        self, service: Service[Any, Any], endpoint: Endpoint, answer: remote.Answer
     ) -> RosbridgeServerEnd:
-        """See `Transport.serve`."""
-        self._graph.check(service.name, service.ros_type, service=True)
-        if self._graph.serves(service.name):
-            raise answered_already(service.name)
-        requests, responses = self._codecs_of(service)
-
-        async def answer(args: Any) -> Frame:
-            return responses.encode(await handler(requests.decode(args)))
-
-        server = RosbridgeServerEnd(
-            self, Endpoint(absolute(service.name), service.ros_type, "server"), answer
-        )
+        server = RosbridgeServerEnd(self, endpoint, answer)
         self._opened(server)
         return server
 
-    async def call(self, service: Service[Req, Res], request: Req, *, timeout_s: float) -> Res:
-        """See `Transport.call`."""
-        self._graph.check(service.name, service.ros_type, service=True)
-        return await self._call(service, request, timeout_s)
+    async def _look_for(self, service: str) -> None:
+        """The bridge says so itself: it may not tell who is there."""
 
-    async def _call(self, service: Service[Req, Res], request: Req, timeout_s: float) -> Res:
-        check_request(service, request)
-        requests, responses = self._codecs_of(service)
+    async def _request(self, service: Service[Any, Any], request: Frame, timeout_s: float) -> Any:
         id_ = f"call:{next(self._numbers)}"
-        frame = {
-            "op": "call_service",
-            "id": id_,
-            "service": absolute(service.name),
-            "args": requests.encode(request),
-        }
-        try:
-            async with asyncio.timeout(timeout_s):
-                answer = await self.ask(id_, frame, f"service {service.name}")
-        except TimeoutError as error:
-            raise too_late(service.name, timeout_s) from error
+        frame = {"op": "call_service", "id": id_, "service": absolute(service.name), "args": request}
+        answer = await self.ask(id_, frame, f"service {service.name}")
         if answer.get("result") is not True:
             raise _refusal(service.name, answer.get("values"))
-        return responses.decode(answer.get("values", {}))
+        return answer.get("values", {})
 
     async def action_client(
         self, action: Action[Goal, Result, Feedback]
@@ -205,18 +161,6 @@ class RosbridgeTransport:
         self._actions.append(client)
         await client.open()
         return client
-
-    def named(self, name: str) -> Self:
-        """See `Transport.named`."""
-        return self
-
-    def endpoints(self) -> tuple[Endpoint, ...]:
-        """See `Transport.endpoints`: of others as often as the bridge is asked, if its `rosapi` runs."""
-        return self._graph.endpoints()
-
-    def on_endpoints_changed(self, handler: Callable[[], Any]) -> Callable[[], None]:
-        """See `Transport.on_endpoints_changed`."""
-        return self._graph.on_changed(handler)
 
     # What its ends ask of it
 
@@ -234,7 +178,7 @@ class RosbridgeTransport:
             return {}
         return {"throttle_rate": self._pace_ms[ros_type], "queue_length": 1}
 
-    def codec(self, python_type: type[M], ros_type: str) -> Codec[M]:
+    def codec(self, python_type: type[M], ros_type: str) -> remote.Codec[M]:
         """What writes and reads a type."""
         return self._codec(python_type, ros_type)
 
@@ -280,10 +224,6 @@ class RosbridgeTransport:
         if client in self._actions:
             self._actions.remove(client)
 
-    def count_failure(self) -> None:
-        """A handler raised."""
-        self.handler_failures += 1
-
     # Inside
 
     def _opened(self, end: End, *, tell: bool = True) -> None:
@@ -291,18 +231,6 @@ class RosbridgeTransport:
         self._graph.add_own(end.endpoint)
         if tell and self._line.up:
             end.tell()
-
-    def _codec(self, python_type: type[M], ros_type: str) -> Codec[M]:
-        known = self._codecs.get((python_type, ros_type))
-        if known is None:
-            known = self._codecs[python_type, ros_type] = Codec(python_type, ros_type, self._ros)
-        return known
-
-    def _codecs_of(self, service: Service[Req, Res]) -> tuple[Codec[Req], Codec[Res]]:
-        return (
-            self._codec(service.request, f"{service.ros_type}_Request"),
-            self._codec(service.response, f"{service.ros_type}_Response"),
-        )
 
     async def _look(self) -> None:
         while True:

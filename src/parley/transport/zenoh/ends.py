@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable, Callable
+from collections.abc import Callable
 from typing import Any, Final, Generic, Protocol, TypeVar
 
 import structlog
 import zenoh
 from zenoh.ext import AdvancedPublisher, AdvancedSubscriber
 
-from parley.errors import TypeMismatchError
 from parley.messages.topics import Topic
-from parley.transport.inbox import Inbox
+from parley.transport import remote
+from parley.transport.base import Endpoint
 from parley.transport.refusals import check_message
-from parley.transport.zenoh.cdr import Codec
+from parley.transport.remote import RemoteServer, RemoteSubscription
 from parley.transport.zenoh.keys import Attachment
 from parley.transport.zenoh.lane import Lane, Outbox
 
@@ -36,7 +36,7 @@ class Declared(Protocol):
         """Take it away."""
 
 
-class Holder(Protocol):
+class Holder(remote.Holder, Protocol):
     """What ends ask of the transport that opened them."""
 
     async def ask(self, job: Callable[[], T]) -> T:
@@ -46,17 +46,11 @@ class Holder(Protocol):
     def send(self, job: Callable[[], object]) -> None:
         """Have an answer sent."""
 
-    def keep(self, task: asyncio.Task[Any]) -> None:
-        """A call is being answered; it ends with the transport at the latest."""
-
-    def count_failure(self) -> None:
-        """A handler raised."""
-
     def stamps(self, whose: str) -> Callable[[], bytes]:
         """What goes with each message of one end, numbered from 1."""
         ...
 
-    def closed(self, token: str) -> None:
+    def closed(self, end: Any) -> None:
         """An end is closed for this process; `take_away` tells others."""
 
     def take_away(self, token: str, end: Declared) -> None:
@@ -70,7 +64,7 @@ class ZenohPublisher(Generic[M]):
         self,
         transport: Holder,
         topic: Topic[M],
-        codec: Codec[M],
+        codec: remote.Codec[M],
         lane: Lane,
         declare: Callable[[], zenoh.Publisher | AdvancedPublisher],
         token: str,
@@ -104,7 +98,7 @@ class ZenohPublisher(Generic[M]):
         """See `Publisher.close`."""
         if self._open:
             self._open = False
-            self._transport.closed(self.token)
+            self._transport.closed(self)
             self._lane.do(self._end)
 
     def _begin(self) -> None:
@@ -121,28 +115,23 @@ class ZenohPublisher(Generic[M]):
             self._publisher = None
 
 
-class ZenohSubscription(Inbox[M]):
+class ZenohSubscription(RemoteSubscription[M]):
     """See `parley.transport.base.Subscription`."""
 
-    def __init__(
-        self, transport: Holder, topic: Topic[M], codec: Codec[M], token: str, inbox: dict[str, Any]
-    ) -> None:
-        super().__init__(topic, on_failure=transport.count_failure, **inbox)
-        self._transport, self._codec, self.token = transport, codec, token
+    _holder: Holder
+
+    def __init__(self, token: str, *heard: Any) -> None:
+        super().__init__(*heard)
+        self.token = token
         self._numbers: dict[bytes, int] = {}
         self.end: zenoh.Subscriber[None] | AdvancedSubscriber[None] | None = None
 
     def on_sample(self, sample: zenoh.Sample) -> None:
         """A message came, on a thread of the library."""
-        try:
-            message = self._codec.decode(sample.payload.to_bytes())
-        except TypeMismatchError as error:
-            log.warning("a message cannot be read", topic=self._topic.name, why=str(error))
-            return
         attached = sample.attachment and Attachment.from_bytes(sample.attachment.to_bytes())
         if attached and not self._topic.qos.latched:  # what was latched comes out of turn
             self._count_lost(attached)
-        self.put(message)
+        self.take(sample.payload.to_bytes())
 
     def _count_lost(self, attached: Attachment) -> None:
         before = self._numbers.pop(attached.gid, attached.number - 1)
@@ -156,74 +145,70 @@ class ZenohSubscription(Inbox[M]):
         """See `Subscription.close`."""
         end, self.end = self.end, None
         if end is not None:
-            self._transport.closed(self.token)
+            self._holder.closed(self)
         await super().close()
         if end is not None:
-            await self._transport.ask(lambda: self._transport.take_away(self.token, end))
+            await self._holder.ask(lambda: self._holder.take_away(self.token, end))
 
 
-class ZenohServer:
-    """See `parley.transport.base.Server`. What is being answered when it closes is answered yet.
+class ZenohServer(RemoteServer):
+    """See `RemoteServer`.
 
     Args:
         transport: Where it is.
-        name: Of the service.
+        endpoint: What it is.
         answer: From the bytes of a request to those of its answer.
         key: Under which calls come, and answers go.
         token: What shows that it is there.
     """
 
+    _holder: Holder
+
     def __init__(
-        self,
-        transport: Holder,
-        name: str,
-        answer: Callable[[bytes], Awaitable[bytes]],
-        key: str,
-        token: str,
+        self, transport: Holder, endpoint: Endpoint, answer: remote.Answer, key: str, token: str
     ) -> None:
-        self._transport, self._name, self._answer, self._key, self.token = transport, name, answer, key, token
+        super().__init__(transport, endpoint, answer)
+        self._key, self.token = key, token
         self._loop = asyncio.get_running_loop()
-        self._open = True
         self.end: zenoh.Queryable[None] | None = None
 
     def on_query(self, query: zenoh.Query) -> None:
         """A call came, on a thread of the library."""
         try:
-            self._loop.call_soon_threadsafe(self._begin, query)
+            self._loop.call_soon_threadsafe(self._asked, query)
         except RuntimeError:  # the loop has ended; who called is told so
             query.drop()
 
-    def _begin(self, query: zenoh.Query) -> None:
-        if not self._open:
-            query.drop()
+    def _asked(self, query: zenoh.Query) -> None:
+        if self._open:
+            self.begin(query, query.payload.to_bytes() if query.payload else b"")
         else:
-            self._transport.keep(asyncio.create_task(self._handle(query), name=f"call of {self._name}"))
+            self.drop(query)
 
-    async def _handle(self, query: zenoh.Query) -> None:
-        error = ""
-        answer = b""
-        try:
-            answer = await self._answer(query.payload.to_bytes() if query.payload else b"")
-        except asyncio.CancelledError:
-            query.drop()
-            raise
-        except Exception as failed:  # noqa: BLE001 - the border of whoever serves: the caller is told
-            error = str(failed) or type(failed).__name__
-        attachment = query.attachment.to_bytes() if query.attachment else b""
+    def drop(self, call: zenoh.Query) -> None:
+        """See `RemoteServer.drop`."""
+        call.drop()
 
-        def reply() -> None:
-            with query:
-                if error:
-                    query.reply_err(error)
-                else:
-                    query.reply(self._key, answer, attachment=attachment)
+    def reply(self, call: zenoh.Query, answer: bytes) -> None:
+        """See `RemoteServer.reply`."""
+        attachment = call.attachment.to_bytes() if call.attachment else b""
+        self._send(call, lambda: call.reply(self._key, answer, attachment=attachment))
 
-        self._transport.send(reply)
+    def refuse(self, call: zenoh.Query, why: str) -> None:
+        """See `RemoteServer.refuse`."""
+        self._send(call, lambda: call.reply_err(why))
+
+    def _send(self, call: zenoh.Query, send: Callable[[], object]) -> None:
+        def work() -> None:
+            with call:
+                send()
+
+        self._holder.send(work)
 
     async def close(self) -> None:
         """See `Server.close`."""
         self._open = False
         end, self.end = self.end, None
         if end is not None:
-            self._transport.closed(self.token)
-            await self._transport.ask(lambda: self._transport.take_away(self.token, end))
+            self._holder.closed(self)
+            await self._holder.ask(lambda: self._holder.take_away(self.token, end))

@@ -7,7 +7,7 @@ import atexit
 import contextlib
 import itertools
 import threading
-from collections.abc import Awaitable, Callable
+from collections.abc import Callable
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Final, Self, TypeVar
@@ -20,18 +20,11 @@ from zenoh.handlers import Callback
 from parley.clock import Clock, WallClock
 from parley.config import NetworkSettings
 from parley.errors import UnavailableError
-from parley.messages.actions import Action
 from parley.messages.topics import QoS, Service, Topic
-from parley.transport.actions import CallingActionClient
-from parley.transport.base import Endpoint, Handler, Subscription, absolute
-from parley.transport.refusals import (
-    answered_already,
-    check_request,
-    failed,
-    nobody_answers,
-    too_late,
-    went_away,
-)
+from parley.transport import remote
+from parley.transport.base import Endpoint
+from parley.transport.refusals import failed, went_away
+from parley.transport.remote import RemoteTransport
 from parley.transport.zenoh.cdr import Codec
 from parley.transport.zenoh.definitions import Definitions
 from parley.transport.zenoh.ends import Declared, ZenohPublisher, ZenohServer, ZenohSubscription
@@ -44,11 +37,6 @@ __all__ = ["ZenohTransport"]
 
 M = TypeVar("M")
 T = TypeVar("T")
-Req = TypeVar("Req")
-Res = TypeVar("Res")
-Goal = TypeVar("Goal")
-Result = TypeVar("Result")
-Feedback = TypeVar("Feedback")
 _End = ZenohPublisher[Any] | ZenohSubscription[Any] | ZenohServer
 
 CLOSING_S: Final = 5.0
@@ -59,7 +47,7 @@ _BLOCK: Final = zenoh.CongestionControl.BLOCK
 log = structlog.get_logger(__name__)
 
 
-class ZenohTransport:
+class ZenohTransport(RemoteTransport[Graph]):
     """Messages between processes and machines: ``async with ZenohTransport(...):``.
 
     Stops, calls and everything else go each their own way, so that none waits for the other.
@@ -79,18 +67,13 @@ class ZenohTransport:
         definitions: tuple[Path, ...] = (),
         clock: Clock | None = None,
     ) -> None:
+        super().__init__(Graph())
         self._network, self._node_name = network or NetworkSettings(), node
         self._clock: Clock = clock or WallClock()
         self._definitions = Definitions(*definitions)
-        self._codecs: dict[tuple[type[Any], str], Codec[Any]] = {}
-        self._graph = Graph()
         self._numbers = itertools.count(1)
-        self._ends: dict[str, _End] = {}
         self._tokens: dict[str, zenoh.LivelinessToken] = {}
         self._waiting: set[asyncio.Future[Any]] = set()
-        self._tasks: set[asyncio.Task[Any]] = set()
-        self.handler_failures = 0
-        """How many times a handler raised; tests assert that it stays 0."""
 
     async def __aenter__(self) -> Self:
         self._loop = asyncio.get_running_loop()
@@ -113,17 +96,11 @@ class ZenohTransport:
     ) -> None:
         try:
             async with asyncio.timeout(CLOSING_S):
-                for end in list(self._ends.values()):
-                    if isinstance(end, ZenohPublisher):
-                        end.close()
-                    else:
-                        await end.close()
+                await self._close_ends()
                 for waiting in self._waiting:
                     if not waiting.done():
                         waiting.set_result(None)
-                for task in list(self._tasks):
-                    task.cancel()
-                await asyncio.gather(*self._tasks, return_exceptions=True)
+                await self._end_tasks()
                 for lane in (self._stops, self._data, self._calls):  # what was published before is sent yet
                     await lane.ask(lambda: None)
                 await self.ask(self._session.close)
@@ -133,10 +110,13 @@ class ZenohTransport:
         finally:
             self._end_lanes()
 
-    def publisher(self, topic: Topic[M]) -> ZenohPublisher[M]:
-        """See `Transport.publisher`."""
-        place, token = self._place(topic.name, topic.ros_type, topic.qos, "publisher")
-        codec = self._codec(topic.type, topic.ros_type)
+    def _make_codec(self, python_type: type[M], ros_type: str) -> Codec[M]:
+        return Codec(self._definitions, python_type, ros_type)
+
+    def _open_publisher(
+        self, topic: Topic[M], codec: remote.Codec[M], endpoint: Endpoint
+    ) -> ZenohPublisher[M]:
+        place, token = self._place(endpoint, topic.qos)
         options: dict[str, Any] = {
             "congestion_control": _BLOCK if topic.qos.reliable else zenoh.CongestionControl.DROP,
             "priority": zenoh.Priority.REAL_TIME if topic.qos.keep_all else zenoh.Priority.DATA,
@@ -157,23 +137,14 @@ class ZenohTransport:
 
         lane = self._stops if topic.qos.keep_all else self._data
         publisher = ZenohPublisher(self, topic, codec, lane, declare, token)
-        self._opened(publisher, Endpoint(absolute(topic.name), topic.ros_type, "publisher"))
+        self._opened(publisher, endpoint)
         return publisher
 
-    async def subscribe(
-        self,
-        topic: Topic[M],
-        handler: Handler[M],
-        *,
-        depth: int | None = None,
-        along: Subscription | None = None,
+    async def _open_subscription(
+        self, topic: Topic[M], codec: remote.Codec[M], endpoint: Endpoint, inbox: dict[str, Any]
     ) -> ZenohSubscription[M]:
-        """See `Transport.subscribe`."""
-        place, token = self._place(topic.name, topic.ros_type, topic.qos, "subscription")
-        codec = self._codec(topic.type, topic.ros_type)
-        subscription = ZenohSubscription(
-            self, topic, codec, token, {"handler": handler, "depth": depth, "along": along}
-        )
+        place, token = self._place(endpoint, topic.qos)
+        subscription: ZenohSubscription[M] = ZenohSubscription(token, self, topic, codec, endpoint, inbox)
         receive = Callback(subscription.on_sample, indirect=False)
 
         def declare() -> None:
@@ -186,70 +157,24 @@ class ZenohTransport:
                 subscription.end = self._session.declare_subscriber(place, receive)
             self._show(token)
 
-        self._opened(subscription, Endpoint(absolute(topic.name), topic.ros_type, "subscription"))
+        self._opened(subscription, endpoint)
         await self.ask(declare)
         return subscription
 
-    async def serve(
-        self, service: Service[Req, Res], handler: Callable[[Req], Awaitable[Res]]
+    async def _open_server(
+        self, service: Service[Any, Any], endpoint: Endpoint, answer: remote.Answer
     ) -> ZenohServer:
-        """See `Transport.serve`."""
-        place, token = self._place(service.name, service.ros_type, SERVICE_QOS, "server")
-        if self._graph.serves(service.name):
-            raise answered_already(service.name)
-        requests, responses = self._codecs_of(service)
-
-        async def answer(data: bytes) -> bytes:
-            return responses.encode(await handler(requests.decode(data)))
-
-        server = ZenohServer(self, service.name, answer, place, token)
+        place, token = self._place(endpoint, SERVICE_QOS)
+        server = ZenohServer(self, endpoint, answer, place, token)
         receive = Callback(server.on_query, indirect=False)
 
         def declare() -> None:
             server.end = self._session.declare_queryable(place, receive, complete=True)
             self._show(token)
 
-        self._opened(server, Endpoint(absolute(service.name), service.ros_type, "server"))
+        self._opened(server, endpoint)
         await self.ask(declare)
         return server
-
-    async def call(self, service: Service[Req, Res], request: Req, *, timeout_s: float) -> Res:
-        """See `Transport.call`."""
-        self._graph.check(service.name, service.ros_type, service=True)
-        if not self._graph.serves(service.name):
-            raise nobody_answers(service.name)
-        check_request(service, request)
-        requests, responses = self._codecs_of(service)
-        try:
-            async with asyncio.timeout(timeout_s):
-                answer = await self._ask_server(service, requests.encode(request), timeout_s)
-        except TimeoutError as error:
-            raise too_late(service.name, timeout_s) from error
-        if answer is None:
-            raise went_away(service.name)
-        if isinstance(answer, str):
-            raise failed(service.name, answer)
-        return responses.decode(answer)
-
-    async def action_client(
-        self, action: Action[Goal, Result, Feedback]
-    ) -> CallingActionClient[Goal, Result, Feedback]:
-        """See `Transport.action_client`."""
-        client = CallingActionClient(self, action)
-        await client.open()
-        return client
-
-    def named(self, name: str) -> Self:
-        """See `Transport.named`."""
-        return self
-
-    def endpoints(self) -> tuple[Endpoint, ...]:
-        """See `Transport.endpoints`."""
-        return self._graph.endpoints()
-
-    def on_endpoints_changed(self, handler: Callable[[], Any]) -> Callable[[], None]:
-        """See `Transport.on_endpoints_changed`."""
-        return self._graph.on_changed(handler)
 
     # `Holder`: what its ends ask of it
 
@@ -261,24 +186,15 @@ class ZenohTransport:
         """See `Holder.send`."""
         self._calls.do(job)
 
-    def keep(self, task: asyncio.Task[Any]) -> None:
-        """See `Holder.keep`."""
-        self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
-
-    def count_failure(self) -> None:
-        """See `Holder.count_failure`."""
-        self.handler_failures += 1
-
     def stamps(self, whose: str) -> Callable[[], bytes]:
         """See `Holder.stamps`."""
         numbers, gid = itertools.count(1), gid_of(whose)
         return lambda: Attachment(next(numbers), self._clock.unix_ms() * 1_000_000, gid).to_bytes()
 
-    def closed(self, token: str) -> None:
+    def closed(self, end: _End) -> None:
         """See `Holder.closed`."""
-        self._ends.pop(token, None)
-        self._graph.remove_own(token)
+        self._ends.remove(end)
+        self._graph.remove_own(end.token)
 
     def take_away(self, token: str, end: Declared) -> None:
         """See `Holder.take_away`."""
@@ -316,38 +232,21 @@ class ZenohTransport:
         with contextlib.suppress(RuntimeError):  # the loop has ended, and nobody looks
             self._loop.call_soon_threadsafe(lambda: self._graph.seen(str(sample.key_expr), is_there=is_there))
 
-    def _place(self, name: str, ros_type: str, qos: QoS, role: str) -> tuple[str, str]:
+    def _place(self, endpoint: Endpoint, qos: QoS) -> tuple[str, str]:
         """Key and token of an end that is to be opened."""
-        self._graph.check(name, ros_type, service=role == "server")
-        type_hash = self._definitions.hash(ros_type)
-        endpoint = Endpoint(absolute(name), ros_type, role)
+        type_hash = self._definitions.hash(endpoint.ros_type)
         token = self._node.end_token(next(self._numbers), endpoint, type_hash, qos)
-        return key(self._node.domain, name, ros_type, type_hash), token
-
-    def _codec(self, python_type: type[M], ros_type: str) -> Codec[M]:
-        known = self._codecs.get((python_type, ros_type))
-        if known is None:
-            known = self._codecs[python_type, ros_type] = Codec(self._definitions, python_type, ros_type)
-        return known
-
-    def _codecs_of(self, service: Service[Req, Res]) -> tuple[Codec[Req], Codec[Res]]:
-        return (
-            self._codec(service.request, f"{service.ros_type}_Request"),
-            self._codec(service.response, f"{service.ros_type}_Response"),
-        )
+        return key(self._node.domain, endpoint.name, endpoint.ros_type, type_hash), token
 
     def _opened(self, end: _End, endpoint: Endpoint) -> None:
-        self._ends[end.token] = end
+        self._ends.append(end)
         self._graph.add_own(end.token, endpoint)
 
     def _show(self, token: str) -> None:
         """Let others see that an end is there. Not on the loop."""
         self._tokens[token] = self._session.liveliness().declare_token(token)
 
-    async def _ask_server(
-        self, service: Service[Any, Any], data: bytes, timeout_s: float
-    ) -> bytes | str | None:
-        """The answer, or why there is none; None: the server went away."""
+    async def _request(self, service: Service[Any, Any], request: bytes, timeout_s: float) -> bytes:
         waiting: asyncio.Future[bytes | str | None] = self._loop.create_future()
         self._waiting.add(waiting)
         given_up = zenoh.CancellationToken()
@@ -376,7 +275,7 @@ class ZenohTransport:
                     timeout=timeout_s + 1.0,  # ours comes first
                     congestion_control=_BLOCK,
                     priority=zenoh.Priority.INTERACTIVE_HIGH,
-                    payload=data,
+                    payload=request,
                     attachment=self._stamp_call(),
                     cancellation_token=given_up,
                 )
@@ -384,10 +283,15 @@ class ZenohTransport:
         type_hash = self._definitions.hash(service.ros_type)
         self._calls.do(get)
         try:
-            return await waiting
+            answer = await waiting
         finally:
             self._waiting.discard(waiting)
             self._calls.do(given_up.cancel)
+        if answer is None:
+            raise went_away(service.name)
+        if isinstance(answer, str):
+            raise failed(service.name, answer)
+        return answer
 
     def _end_session(self) -> None:
         """The process ends: close, but not at any price."""
