@@ -17,6 +17,7 @@ from parley.umrf.io import (
     graph_to_json,
     read_descriptor,
     read_graph,
+    read_known,
     write_descriptor,
     write_graph,
 )
@@ -421,3 +422,22 @@ def test_the_form_of_planners_keeps_exit_conditions_and_what_is_not_required() -
     assert raw["graph_exit"][0]["conditions"] == ["on_true -> ignore"]
     assert raw["graph_description"] == "why"
     assert raw["actions"][0]["input_parameters"]["x"]["pvf_required"] is False
+
+
+@pytest.mark.parametrize(
+    "name", ["g", "graph", "graph_name", ":", " ", "jäär", 'a "quoted" one', "back\\slash"]
+)
+@pytest.mark.parametrize("inside", ["x", "graph_name", "g"])
+def test_a_graph_that_was_read_under_another_name_is_the_same_as_one_read_anew(
+    name: str, inside: str
+) -> None:
+    def text(name: str, value: str, indent: int | None) -> str:
+        given = {inside: {"pvf_type": "string", "pvf_value": value}}
+        action = {"name": "Say", "type": "sync", "input_parameters": given}
+        return json.dumps({"actions": [action], "graph_name": name}, ensure_ascii=False, indent=indent)
+
+    for value in ("one", name, f"{name}x", f"x{name}"):
+        for indent in (None, 4):
+            for named in ("first", name, "second"):
+                source = text(named, value, indent)
+                assert read_known(json.loads(source), source) == read_graph(source)

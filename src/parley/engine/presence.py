@@ -22,6 +22,9 @@ REST_LINEAR_MPS: Final = 0.01
 REST_ANGULAR_RADPS: Final = 0.02
 """Measured velocities below these count as standing still: sensors are never quite silent."""
 
+SPACING_S: Final = 0.01
+"""Wall time between two statuses: each names all graphs, and a hundred may begin at once."""
+
 State = Literal["idle", "running", "paused", "stopped", "leaving"]
 
 
@@ -32,7 +35,7 @@ def is_at_rest(robot: Robot) -> bool:
 
 
 class Presence:
-    """Sends the status every `heartbeat_s` of wall time, and at once when it changes.
+    """Sends the status every `heartbeat_s` of wall time, and at once when it changes after a quiet moment.
 
     Args:
         actor: Whose status it is.
@@ -87,8 +90,9 @@ class Presence:
             except Exception:
                 # A robot whose driver has a defect must not look as if it had left.
                 log.exception("status failed", actor=self._actor)
+            await asyncio.sleep(SPACING_S)
             try:
-                async with asyncio.timeout(self._heartbeat_s):
+                async with asyncio.timeout(self._heartbeat_s - SPACING_S):
                     await self._changed.wait()
             except TimeoutError:
                 continue

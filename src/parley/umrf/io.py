@@ -8,7 +8,6 @@ use the `faithful` one, which reads back to the same graph.
 from __future__ import annotations
 
 import json
-import marshal
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from json.encoder import encode_basestring
@@ -48,8 +47,9 @@ __all__ = [
 KEPT_GRAPHS: Final = 64
 """So many are kept as they were read and checked: rounds are done again, and by several robots."""
 KEPT_CHARS: Final = 50_000
-_read: Final[dict[bytes, Graph]] = {}
-"""What they hold besides their names -> one of them."""
+_read: Final[dict[str, Graph]] = {}
+"""Their texts without the names -> one of them."""
+_NAME: Final = '"graph_name"'
 
 
 class UnreadableGraphError(GraphRefusedError):
@@ -92,15 +92,17 @@ def read_known(raw: Mapping[str, Any], text: str) -> Graph:
 
     Args:
         raw: What `load_object` gave for `text`.
-        text: A long one is not kept.
+        text: A long one is not kept, nor one with escapes, in which the name is not found by its letters.
 
     Raises:
         UnreadableGraphError: With every problem and where it is.
     """
     name = raw.get("graph_name")
-    if len(text) > KEPT_CHARS or not isinstance(name, str) or not name:
+    alone = "\\" not in text and text.count(_NAME) == 1
+    if len(text) > KEPT_CHARS or not alone or not isinstance(name, str) or not name:
         return read_loaded(raw)
-    content = marshal.dumps({**raw, "graph_name": ""}, 2)
+    begin = text.index(name, text.index(_NAME) + len(_NAME))
+    content = text[:begin] + text[begin + len(name) :]
     known = _read.get(content)
     if known is not None:
         return replace(known, name=name)
