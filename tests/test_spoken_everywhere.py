@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import parley
+from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.config import SystemConfig
 from parley.demos.catalogue import load_demo
 from parley.sentences import LANGUAGES, in_language
@@ -105,6 +106,15 @@ def test_every_sentence_of_the_built_in_engine_has_a_form_in_every_language() ->
     assert others
     found = [(file, text) for file, text in all_texts() for other in others if not is_known(text, other)]
     assert found == []
+
+
+def test_what_actions_say_of_themselves_has_a_form_in_every_language() -> None:
+    told = [text for one in BUILTIN_ACTIONS for text in (one.description, *one.help.values())]
+    others = [language for language in LANGUAGES if language != "en"]
+    assert [
+        (text, other) for text in told for other in others if ENGLISH.search(in_language(text, other))
+    ] == []
+    assert [(text, other) for text in told for other in others if in_language(text, other) == text] == []
 
 
 async def test_what_robots_say_in_a_demonstration_has_no_english_left_in_it_but_what_people_said() -> None:

@@ -9,6 +9,7 @@ import pytest
 
 from parley.actions.pick_up import pick_up
 from parley.actions.place import place
+from parley.agents.display.map_feed import view_of
 from parley.errors import ActionFailure, FailureCode
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.sim.solids import Solid
@@ -45,6 +46,7 @@ async def test_a_thing_is_taken_carried_and_put_where_the_robot_stands() -> None
         await pick_up(here.context, "cup")
         assert here.robot.arm is not None
         assert (here.person.told, here.robot.arm.holds) == (["I have the red cup in my hand."], "red cup")
+        assert view_of(here.robot, "hall", 0).holds == "red cup"
         photograph = await here.robot.image()
         assert [seen.label for seen in photograph.detections or ()] == ["green crate"]
         above = await here.simulator.top_down(300)

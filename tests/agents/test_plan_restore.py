@@ -45,6 +45,13 @@ def test_a_giver_whose_outputs_were_lost_is_done_again() -> None:
     assert steps[1].fed == {"text"}
 
 
+def test_what_only_finds_something_out_is_done_again_so_that_the_next_step_is_called_by_it() -> None:
+    left = was(["FINISHED", "RUNNING", "UNINITIALIZED"], {"JoinText_0": {"text": "a-b"}})
+    steps = restored_steps(left, {"JoinText"})
+    assert [step.call.name for step in steps] == ["JoinText", "SameText", "WaitFor"]
+    assert not steps[1].call.input_parameters["text"].has_data
+
+
 def test_what_is_no_sequence_is_named_and_not_gone_on_with() -> None:
     left = was(["RUNNING", "UNINITIALIZED", "UNINITIALIZED"], {})
     first, *rest = left.graph.nodes

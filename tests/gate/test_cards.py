@@ -43,8 +43,9 @@ def test_a_card_is_made_of_action_and_arguments_and_never_of_the_reason() -> Non
 
 
 def test_a_pose_is_told_by_the_map() -> None:
-    assert labels_of([drive(3.2, 2.1)], CATALOGUE, [BOX]) == ("Go to “red box (x 3.2 m, y 2.1 m)”",)
-    assert labels_of([drive(30.0, 2.0)], CATALOGUE, [BOX]) == ("Go to “x 30.0 m, y 2.0 m”",)
+    assert labels_of([drive(3.2, 2.1)], CATALOGUE, [BOX]) == ("Go to a place near “red box”",)
+    assert labels_of([drive(30.0, 2.0)], CATALOGUE, [BOX]) == ("Go to a place 27 m from “red box”",)
+    assert labels_of([drive(30.0, 2.0)], CATALOGUE) == ("Go to “x 30.0 m, y 2.0 m”",)
 
 
 def test_an_action_without_words_of_its_own_is_told_by_its_name_and_every_argument() -> None:

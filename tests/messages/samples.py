@@ -321,6 +321,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "actor": "A",
         "map_name": "hall",
         "room": "hall",
+        "holds": "red box",
         "pose": POSE,
         "path": [[1.0, 2.0]],
         "goal": POSE,

@@ -231,6 +231,7 @@ export const mapView: MapView = {
   map_name: 'hall',
   pose: { x: 1, y: 2, yaw: 0 },
   room: 'hall',
+  holds: '',
   path: [[3, 1]],
   goal: { x: 3, y: 1, yaw: 0 },
   scan: [[2, 2]],

@@ -21,6 +21,9 @@ export function moodOf(name: string, { robots, plans, proposals }: Seen): Mood {
     Object.values(plans).some((plan) => plan.robot === name && NEEDS.includes(plan.state)) ||
     Object.values(proposals).some((proposal) => proposal.robot === name);
   if (waits && robot.state !== 'running') return 'waiting';
+  // What an earlier process of it left does not run, and is not over.
+  const isKept = robot.state === 'idle' && Object.values(plans).some((plan) => plan.robot === name && plan.state === 'paused');
+  if (isKept) return 'paused';
   return robot.state === 'leaving' ? 'unknown' : robot.state;
 }
 

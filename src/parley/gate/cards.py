@@ -123,7 +123,7 @@ def _bare(call: ActionCall) -> Mapping[str, Any]:
     return dumped
 
 
-def _label(call: ActionCall, info: ActionInfo | None, place: str) -> Sentence:
+def _label(call: ActionCall, info: ActionInfo | None, place: str | Sentence) -> Sentence:
     arguments = {name: _said(item.value) for name, item in call.input_parameters.items() if item.has_data}
     offered = (info.label, *info.phrases) if info is not None else ()
     phrase = next((text for text in offered if text and _fits(text, arguments, place)), "")
@@ -132,7 +132,8 @@ def _label(call: ActionCall, info: ActionInfo | None, place: str) -> Sentence:
         named |= {name for name in arguments if name.startswith(_POSE)}
     if phrase:
         phrase = phrase[:1].upper() + phrase[1:]
-        fills = {hole: f"“{arguments.get(hole, place)}”" for hole in _HOLE.findall(phrase)}
+        told = {hole: arguments.get(hole, place) for hole in _HOLE.findall(phrase)}
+        fills = {hole: text if isinstance(text, Sentence) else f"“{text}”" for hole, text in told.items()}
         what = Sentence.of(phrase, dict(fills))
     else:
         words = in_words(call.name)
@@ -140,11 +141,11 @@ def _label(call: ActionCall, info: ActionInfo | None, place: str) -> Sentence:
     rest = {name: value for name, value in arguments.items() if name not in named}
     if not rest:
         return what
-    told = ", ".join(f"{in_words(name.rpartition('::')[2])} “{value}”" for name, value in rest.items())
-    return sentence("{what}: {arguments}", what=what, arguments=told)
+    given = ", ".join(f"{in_words(name.rpartition('::')[2])} “{value}”" for name, value in rest.items())
+    return sentence("{what}: {arguments}", what=what, arguments=given)
 
 
-def _fits(phrase: str, arguments: Mapping[str, str], place: str) -> bool:
+def _fits(phrase: str, arguments: Mapping[str, str], place: str | Sentence) -> bool:
     """Whether every hole of a phrase is an argument, but for one that a place fills."""
     foreign = [hole for hole in _HOLE.findall(phrase) if hole not in arguments]
     return not foreign or (len(foreign) == 1 and bool(place))
@@ -174,7 +175,7 @@ def _line_at(step: int, lines: Sequence[int]) -> int:
 
 def _place(
     calls: Sequence[ActionCall], index: int, infos: Mapping[str, ActionInfo], objects: Sequence[MapObject]
-) -> str:
+) -> str | Sentence:
     """The place a pose among the arguments means: by the map, or by what the step before looked up."""
     call = calls[index]
     x, y = call.input_parameters.get(_X), call.input_parameters.get(_Y)
@@ -189,17 +190,21 @@ def _place(
     return ""
 
 
-def _by_map(x: Any, y: Any, objects: Sequence[MapObject]) -> str:
+def _by_map(x: Any, y: Any, objects: Sequence[MapObject]) -> str | Sentence:
+    """By what is nearest to it; in numbers only where nothing on the map has a name."""
     try:
         x_m, y_m = float(x), float(y)
     except (TypeError, ValueError):
         return _quoted(f"{x}, {y}")
-    point = f"x {x_m:.1f} m, y {y_m:.1f} m"
     distances = [
         (math.hypot(item.x_m - x_m, item.y_m - y_m), item.description or item.id) for item in objects
     ]
-    distance_m, name = min(distances, default=(math.inf, ""))
-    return f"{one_line(name)} ({point})" if distance_m <= _NEAR_M else point
+    if not distances:
+        return f"x {x_m:.1f} m, y {y_m:.1f} m"
+    distance_m, name = min(distances)
+    if distance_m <= _NEAR_M:
+        return sentence("a place near “{name}”", name=_quoted(name))
+    return sentence("a place {distance} m from “{name}”", distance=f"{distance_m:.0f}", name=_quoted(name))
 
 
 def _said(value: object) -> str:

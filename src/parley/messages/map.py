@@ -67,6 +67,8 @@ class MapView(Payload):
     pose: PoseInfo
     room: str = ""
     """The part of the map with a name that it is in; empty: none."""
+    holds: str = ""
+    """What it has in its hand, in words; empty: nothing."""
     path: tuple[Point, ...] = ()
     """The planned way that still lies ahead."""
     goal: PoseInfo | None = None

@@ -16,7 +16,19 @@ from parley.sentences import LANGUAGES, SpokenLanguage, in_language
 __all__ = ["Reader", "language_of", "shown_in"]
 
 _WORDED: Final = frozenset(
-    {"message", "label", "progress_text", "reason", "why", "description", "changes", "note", "asked", "tried"}
+    {
+        "message",
+        "label",
+        "progress_text",
+        "reason",
+        "why",
+        "description",
+        "help",
+        "changes",
+        "note",
+        "asked",
+        "tried",
+    }
     | {"lines", "left", "closing"}
     | {"language", "detail", "remedy", "title"}
 )

@@ -30,6 +30,11 @@ it('says where a robot is and for how long it works on what it really does', () 
   const which = entry({ id: 'w', seq: 4, type: 'response', message: 'Which box?', choices: ['red', 'blue'], targets: ['Ada'] });
   act(() => useLive.getState().takeChanges([{ kind: 'robot', seq: 4, robot: { ...working, state: 'idle' } }, { kind: 'chat', seq: 5, entry: which }]));
   expect(line.textContent).toMatch(/^AdaWaiting for you/);
+  const left = { ...plan({ robot: 'Ada', steps: [step({ id: 'go to the gate' })] }), state: 'paused' as const };
+  act(() => useLive.getState().takeSnapshot(snapshot({ robots: [{ ...working, state: 'idle' }], views: [{ ...mapView, actor: 'Ada', holds: 'red box' }], plans: [left] })));
+  expect([...line.querySelectorAll('p > :not([aria-hidden])')].map((one) => one.textContent)).toEqual(
+    ['Ada', 'Paused', 'Hall', 'Holds the red box', '92 %', '1 of 1: Go to the gate'], // after its program was started anew
+  );
   act(() => useLive.getState().setConnection('lost', 1));
   expect(line.textContent).toBe('AdaNot known');
   vi.useRealTimers();

@@ -54,20 +54,23 @@ export function RobotLine({ name, named }: { name: string; named: boolean }) {
 function Facts({ name }: { name: string }) {
   const { t } = useTranslation('robots');
   const room = useWorld((world) => world.views[name]?.room ?? '');
+  const holds = useWorld((world) => world.views[name]?.holds ?? '');
   const battery = useWorld((world) => world.robots[name]?.battery ?? null);
   return (
     <>
       {room && <span className={css.room}>{sentence(room)}</span>}
+      {holds && <span>{t('holds', { thing: holds })}</span>}
       {battery !== null && <span>{t('percent', { percent: Math.round(battery * 100) })}</span>}
     </>
   );
 }
 
-/** The step that really runs, or at which it got stuck. */
+/** The step that really runs, at which it got stuck, or with which it goes on. */
 function taskOf(plan: PlanView) {
   if (OVER.has(plan.state)) return null;
   const lines = linesOf(plan.steps);
-  const at = lines.findIndex(({ step }) => AT_WORK.has(step.state) || step.state === 'failed');
+  const busy = lines.findIndex(({ step }) => AT_WORK.has(step.state) || step.state === 'failed');
+  const at = busy < 0 && plan.state === 'paused' ? lines.findIndex(({ step }) => step.state === 'queued') : busy;
   const step = lines[at]?.step;
   return step ? { step, number: at + 1, all: lines.length } : null;
 }

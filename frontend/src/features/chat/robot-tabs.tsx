@@ -3,10 +3,8 @@ import { useTranslation } from 'react-i18next';
 
 import { useWorld } from '@/live/store';
 import type { ChatEntry } from '@/live/types';
-import { useOverlays } from '@/state/overlays';
 import { useRobotNames, useSelection, useSelectionStore } from '@/state/selection';
 import { useMood } from '@/state/mood';
-import { Button } from '@/ui/button';
 import { Dot } from '@/ui/dot';
 
 import { RobotLine } from './robot-line';
@@ -47,14 +45,15 @@ function Tab({ name, chosen, awaitsAnswer, leads, onOnly, onToggle }: TabProps) 
         else onOnly();
       }}
     >
-      <Dot mood={mood} />
-      <span>{name}</span> <span className="hidden">{t(`robots:state.${mood}`)}</span>
-      {awaitsAnswer && (
-        <span className={css.asks}>
-          <span aria-hidden="true">?</span>
-          <span className="hidden">{t('awaitsAnswer', { name })}</span>
+      {awaitsAnswer ? (
+        <span className={css.asks} aria-hidden="true">
+          ?
         </span>
+      ) : (
+        <Dot mood={mood} />
       )}
+      <span>{name}</span> <span className="hidden">{t(`robots:state.${mood}`)}</span>
+      {awaitsAnswer && <span className="hidden">{t('awaitsAnswer', { name })}</span>}
     </button>
   );
 }
@@ -68,7 +67,6 @@ export function RobotTabs({ asked, tools = null }: { asked: readonly ChatEntry[]
   const proposals = useWorld((world) => world.proposals);
   const asking = new Set([...Object.values(proposals).map((one) => one.robot), ...asked.flatMap((one) => one.targets)]);
   const leading = chosen.find((name) => asking.has(name)) ?? names.find((name) => asking.has(name)) ?? chosen[0];
-  const open = useOverlays((state) => state.set);
   const [several, setSeveral] = useState(false);
   const alone = names.length === 1;
   return (
@@ -91,7 +89,6 @@ export function RobotTabs({ asked, tools = null }: { asked: readonly ChatEntry[]
             ))}
           </div>
         )}
-        {!(alone && tools) && <Button needs="setting" tone="quiet" icon="plus" iconOnly aria-label={t('addRobot')} onPress={() => open('addRobot')} />}
         {names.length > 1 && (
           <button
             type="button"

@@ -7,10 +7,12 @@ import css from './map.module.css';
 import { nameOf, type Candidates, type Mark } from './marks';
 import type { Trails } from './use-trails';
 import type { Way as Trial } from './use-way';
-import { aside, freeIn, labelOf, LONG_NAMES_SCALE, middleOf, roomForLabels, toScreen, type Place, type Size, type Viewport } from './viewport';
+import { aside, boxOf, freeIn, middleOf, roomAt, roomForLabels, textsOf, toScreen, type Label, type Place, type Size, type Viewport } from './viewport';
 
 export interface Rover {
   name: string;
+  /** Its name and what it carries, if it carries something. */
+  title: string;
   pose: { x: number; y: number; yaw?: number };
   view: MapView | null;
   chosen: boolean;
@@ -163,30 +165,29 @@ interface LabelsProps {
 }
 
 function Labels({ things, rooms, candidates, rovers, view, size, robotPx }: LabelsProps) {
-  const robots = rovers.map((rover) => {
+  const robots = rovers.map((rover): Label => {
     const at = toScreen(view, size, rover.pose);
-    return { id: `robot ${rover.name}`, text: rover.name, at: { x: at.x, y: at.y + robotPx + LABEL_BELOW_PX / 2 } };
+    return { id: `robot ${rover.name}`, texts: rover.title ? [rover.title, rover.name] : [rover.name], at: { x: at.x, y: at.y + robotPx + LABEL_BELOW_PX / 2 } };
   });
-  const named = [...things]
-    .sort((a, b) => Number(candidates.has(b.id)) - Number(candidates.has(a.id)))
-    .map((thing) => {
-      const candidate = candidates.get(thing.id);
-      const text = candidate ? `${candidate.number}${view.scale < LONG_NAMES_SCALE ? '' : `  ${nameOf(thing)}`}` : labelOf(thing, view.scale);
-      const at = toScreen(view, size, thing);
-      return { id: `${candidate ? 'candidate' : 'thing'} ${thing.id}`, text, at, others: aside(at, ASIDE_PX) };
-    });
-  const large = rooms.map((room) => {
+  const named = things.map((thing): Label => {
+    const number = candidates.get(thing.id)?.number;
+    const texts = number ? [`${number}  ${nameOf(thing)}`, `${number}`] : textsOf(thing, view.scale);
+    const at = toScreen(view, size, thing);
+    const room = roomAt(rooms, thing); // over its walls nothing is written
+    return { id: `${number ? 'candidate' : 'thing'} ${thing.id}`, texts, at, others: aside(at, ASIDE_PX), within: room ? boxOf(room.corners, view, size) : undefined };
+  });
+  const large = rooms.map((room): Label => {
     const [at, ...others] = [...freeIn(room, things), middleOf(room)].map((place) => toScreen(view, size, place));
-    return { id: `room ${room.name}`, text: room.name, at: at ?? { x: 0, y: 0 }, others, letterPx: ROOM_LETTER_PX };
+    return { id: `room ${room.name}`, texts: [room.name], at: at ?? { x: 0, y: 0 }, others, letterPx: ROOM_LETTER_PX };
   });
-  const labels = [...robots, ...named.filter((one) => one.id.startsWith('candidate')), ...large, ...named];
+  const isFirst = ({ id }: Label) => id.startsWith('candidate');
+  const labels = [...robots, ...named.filter(isFirst), ...large, ...named.filter((one) => !isFirst(one))];
   const marks = rovers.map((rover) => ({ at: toScreen(view, size, rover.pose), radius: robotPx }));
-  const written = roomForLabels(labels, size, marks);
   return (
     <g className={css.labels}>
-      {[...written].map(([id, at]) => (
-        <text key={id} x={at.x} y={at.y} data-of={id.split(' ')[0]}>
-          {labels.find((label) => label.id === id)?.text}
+      {[...roomForLabels(labels, size, marks)].map(([id, { x, y, text }]) => (
+        <text key={id} x={x} y={y} data-of={id.split(' ')[0]}>
+          {text}
         </text>
       ))}
     </g>

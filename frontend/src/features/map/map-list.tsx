@@ -37,7 +37,7 @@ export function MapList({ map, rovers, onMark }: Props) {
           return (
             <li key={rover.name}>
               <p>
-                <strong>{rover.name}</strong> {thing && t('near', { thing: thing.description || thing.kind })} {way}
+                <strong>{rover.title || rover.name}</strong> {thing && t('near', { thing: thing.description || thing.kind })} {way}
               </p>
             </li>
           );

@@ -124,7 +124,7 @@ function Ready({ map, mapName, robot, listed, children }: ReadyProps) {
       {area ? (
         <DrawBar area={area} mapName={mapName} rules={rules} onDone={() => setArea(null)} />
       ) : (
-        <PlaceBar robot={robot} marked={marked} way={way} question={question} candidates={candidates} onClear={() => setMarked(null)} onRule={onRule} />
+        <PlaceBar robot={robot} marked={marked} way={way} question={question} candidates={candidates} rooms={map.rooms} onClear={() => setMarked(null)} onRule={onRule} />
       )}
     </div>
   );
@@ -149,15 +149,16 @@ const zonesOf = (rules: readonly Rule[], mapName: string) =>
 function useRovers(mapName: string, robot: string): readonly Rover[] {
   const views = useWorld((world) => world.views);
   const robots = useWorld((world) => world.robots);
+  const { t } = useTranslation('map');
   return useMemo(() => {
     const rovers = Object.values(robots).flatMap((one): Rover[] => {
       const view = views[one.name] ?? null;
       const pose = view?.pose ?? one.pose;
       const sameMap = one.name === robot || (view?.map_name ?? one.map_name) === mapName;
       return pose && sameMap
-        ? [{ name: one.name, pose, view, chosen: one.name === robot, here: one.connection === 'here' }]
+        ? [{ name: one.name, title: view?.holds ? t('holding', { robot: one.name, thing: view.holds }) : '', pose, view, chosen: one.name === robot, here: one.connection === 'here' }]
         : [];
     });
     return rovers.sort((a, b) => Number(a.chosen) - Number(b.chosen));
-  }, [views, robots, mapName, robot]);
+  }, [views, robots, mapName, robot, t]);
 }

@@ -1,7 +1,7 @@
 import { useTranslation } from 'react-i18next';
 
 import { useWorld } from '@/live/store';
-import type { ChatEntry } from '@/live/types';
+import type { ChatEntry, MapRoom } from '@/live/types';
 import { useOutbox } from '@/state/outbox';
 import { useRobotNames } from '@/state/selection';
 import { Button } from '@/ui/button';
@@ -11,6 +11,7 @@ import css from './map.module.css';
 import { nameOf, type Candidates, type Mark } from './marks';
 import { useSaying } from './use-saying';
 import type { Way } from './use-way';
+import { roomAt } from './viewport';
 
 interface Props {
   robot: string;
@@ -18,13 +19,14 @@ interface Props {
   way: Way;
   question: ChatEntry | undefined;
   candidates: Candidates;
+  rooms: readonly MapRoom[];
   onClear: () => void;
   /** It is to become a rule. */
   onRule: (marked: Mark) => void;
 }
 
 /** What can be done with what is picked out. */
-export function PlaceBar({ robot, marked, way, question, candidates, onClear, onRule }: Props) {
+export function PlaceBar({ robot, marked, way, question, candidates, rooms, onClear, onRule }: Props) {
   const { t } = useTranslation('map');
   if (!marked) {
     return (
@@ -33,11 +35,18 @@ export function PlaceBar({ robot, marked, way, question, candidates, onClear, on
       </div>
     );
   }
+  const room = roomAt(rooms, marked.at);
+  const titles: Record<Mark['kind'], string> = {
+    thing: marked.kind === 'thing' ? nameOf(marked.thing) : '',
+    room: marked.kind === 'room' ? marked.room.name : '',
+    place: room ? t('placeIn', { room: room.name }) : t('place'),
+  };
+  const title = sentence(titles[marked.kind]);
   const candidate = marked.kind === 'thing' ? candidates.get(marked.thing.id) : undefined;
   return (
     <div className={css.bar} aria-live="polite">
       <p>
-        <Title marked={marked} /> <WayWords robot={robot} way={way} />
+        <strong>{title}</strong> <WayWords robot={robot} way={way} />
       </p>
       {candidate && question ? (
         <Answer question={question} choice={candidate.choice} onDone={onClear} />
@@ -47,13 +56,6 @@ export function PlaceBar({ robot, marked, way, question, candidates, onClear, on
       <Button tone="quiet" icon="close" iconOnly aria-label={t('unmark')} onPress={onClear} />
     </div>
   );
-}
-
-function Title({ marked }: { marked: Mark }) {
-  const { t } = useTranslation('map');
-  if (marked.kind === 'thing') return <strong>{sentence(nameOf(marked.thing))}</strong>;
-  const at = { x: marked.at.x.toFixed(1), y: marked.at.y.toFixed(1) };
-  return <strong>{marked.kind === 'room' ? sentence(marked.room.name) : t('place', at)}</strong>;
 }
 
 /** How far it is, or why not. */

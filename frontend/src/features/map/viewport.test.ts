@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 
 import { mapInfo } from '@/live/samples';
 
-import { aside, bounds, fit, freeIn, labelOf, pan, roomAt, roomForLabels, thingAt, toMap, toScreen, zoom } from './viewport';
+import { aside, bounds, fit, freeIn, pan, roomAt, roomForLabels, textsOf, thingAt, toMap, toScreen, zoom } from './viewport';
 
 const size = { width: 800, height: 400 };
 
@@ -63,12 +63,13 @@ describe('pointing at a map', () => {
 });
 
 describe('labels on a map', () => {
-  it('are left out where they would lie over an earlier one or leave the screen', () => {
-    const label = (id: string, x: number, y: number) => ({ id, text: 'front door', at: { x, y } });
-    const written = roomForLabels([label('a', 200, 100), label('b', 210, 104), label('c', 200, 200), label('d', 2, 50)], size);
-    expect([...written.keys()]).toEqual(['a', 'c']);
+  it('are left out where they would lie over an earlier one, and stay on the screen', () => {
+    const label = (id: string, x: number, y: number) => ({ id, texts: ['front door'], at: { x, y } });
+    const written = roomForLabels([label('a', 200, 100), label('b', 210, 104), label('c', 200, 200), label('d', 2, 50), label('e', -2, 90)], size);
+    expect([...written.keys()]).toEqual(['a', 'c', 'd']);
+    expect(written.get('d')?.x).toBe(35);
     const beside = roomForLabels([label('a', 200, 100), { ...label('b', 210, 104), others: aside({ x: 210, y: 104 }, 20) }], size, [{ at: { x: 210, y: 82 }, radius: 8 }]);
-    expect(beside.get('b')).toEqual({ x: 210, y: 124 }); // above it is a robot
+    expect(beside.get('b')).toMatchObject({ x: 210, y: 124 }); // above it is a robot
   });
 
   it('put the name of a room where no thing is', () => {
@@ -86,9 +87,18 @@ describe('labels on a map', () => {
     expect([1, 4, 25, 15].map((at) => roomAt(rooms, { x: at, y: at })?.name)).toEqual(['corner', 'hall', 'yard', undefined]);
   });
 
-  it('are short while the map is small', () => {
+  it('are names while the map is small, and what describes a thing when it is larger', () => {
     const [box] = mapInfo.objects;
-    expect(box && labelOf(box, 20)).toBe('box');
-    expect(box && labelOf(box, 100)).toBe('red box');
+    const texts = (description: string, scale: number) => box && textsOf({ ...box, description }, scale);
+    expect(texts('red box', 20)).toEqual(['red box', 'box']);
+    expect(texts('box by the front door', 20)).toEqual(['box']);
+    expect(texts('box by the front door', 100)).toEqual(['box by the front door', 'box']);
+  });
+
+  it('are the short words where the long ones would lie over another one, or leave the room', () => {
+    const label = (id: string, x: number, within?: { left: number; right: number; top: number; bottom: number }) => ({ id, texts: [`the large ${id}`, id], at: { x, y: 100 }, within });
+    const written = roomForLabels([label('box', 100), label('bag', 180), label('bed', 400, { left: 395, right: 460, top: 0, bottom: 300 })], size);
+    expect([...written.values()].map(({ text }) => text)).toEqual(['the large box', 'bag', 'bed']);
+    expect(written.get('bed')?.x).toBeGreaterThan(405);
   });
 });

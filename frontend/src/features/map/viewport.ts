@@ -42,6 +42,14 @@ export const toMap = (view: Viewport, size: Size, point: Place): Place => ({
   y: view.centre.y - (point.y - size.height / 2) / view.scale,
 });
 
+/** What corners enclose, on the screen. */
+export function boxOf(corners: readonly (readonly [number, number])[], view: Viewport, size: Size): Box {
+  const places = corners.map(([x, y]) => toScreen(view, size, { x, y }));
+  const xs = places.map(({ x }) => x);
+  const ys = places.map(({ y }) => y);
+  return { left: Math.min(...xs), right: Math.max(...xs), top: Math.min(...ys), bottom: Math.max(...ys) };
+}
+
 /** Larger or smaller around a point of the screen, which stays where it is. */
 export function zoom(view: Viewport, size: Size, factor: number, at: Place, least: number): Viewport {
   const scale = Math.min(MAX_SCALE, Math.max(least, view.scale * factor));
@@ -68,12 +76,15 @@ export function pan(view: Viewport, map: MapInfo, dx: number, dy: number): Viewp
   };
 }
 
-/** From so many pixels per metre there is room for more than what kind of thing it is. */
-export const LONG_NAMES_SCALE = 60;
+/** From so many pixels per metre there is room for what describes a thing; before that, for a name of so many letters. */
+const DESCRIBING_SCALE = 60;
+const NAME_LETTERS = 14;
 
-/** What a thing is called on the map. */
-export const labelOf = (thing: MapThing, scale: number): string =>
-  (scale < LONG_NAMES_SCALE ? thing.kind || thing.description : thing.description || thing.kind).replaceAll('_', ' ');
+/** What a thing may be called on the map, the best first: its own name, or else what kind of thing it is. */
+export const textsOf = ({ description, kind }: MapThing, scale: number): readonly string[] =>
+  [description, kind]
+    .filter((name, index) => name && (index > 0 || !kind || scale >= DESCRIBING_SCALE || name.length <= NAME_LETTERS))
+    .map((name) => name.replaceAll('_', ' '));
 
 /** Parts of a room's width and depth. */
 const PARTS = [0.5, 0.35, 0.65, 0.2, 0.8];
@@ -83,20 +94,28 @@ const LINE_PX = 16;
 
 export interface Label {
   id: string;
-  text: string;
+  /** What may be written, the best first. */
+  texts: readonly string[];
   /** Where it would best stand. */
   at: Place;
   /** Where it may stand instead, the best first. */
   others?: readonly Place[];
   /** Wider than others. */
   letterPx?: number;
+  /** What it stays in, but for shortest words that are wider than that; not given: the screen. */
+  within?: Box | undefined;
 }
 
-interface Box {
+export interface Box {
   left: number;
   right: number;
   top: number;
   bottom: number;
+}
+
+/** What is written, and its middle. */
+export interface Written extends Place {
+  text: string;
 }
 
 const around = (at: Place, half: number, high: number): Box => ({
@@ -106,27 +125,39 @@ const around = (at: Place, half: number, high: number): Box => ({
   bottom: at.y + high / 2,
 });
 const meet = (a: Box, b: Box) => a.right >= b.left && a.left <= b.right && a.bottom >= b.top && a.top <= b.bottom;
+const isIn = (box: Box, outer: Box) => box.left >= outer.left && box.right <= outer.right && box.top >= outer.top && box.bottom <= outer.bottom;
+const between = (low: number, value: number, high: number) => (low > high ? (low + high) / 2 : Math.min(high, Math.max(low, value)));
 
 /**
- * Where labels can be written inside the screen and not over each other; the first come first.
+ * What can be written inside the screen and not over each other; the first come first, and all get their
+ * shortest words before any gets longer ones.
  * @param marks What must not be written over: middle and radius.
  */
 export function roomForLabels(
   labels: readonly Label[],
   size: Size,
   marks: readonly { at: Place; radius: number }[] = [],
-): ReadonlyMap<string, Place> {
-  const taken = marks.map(({ at, radius }) => around(at, radius, 2 * radius));
-  const written = new Map<string, Place>();
-  for (const { id, text, at, others = [], letterPx = LETTER_PX } of labels) {
+): ReadonlyMap<string, Written> {
+  const screen = { left: 0, right: size.width, top: 0, bottom: size.height };
+  const taken = new Map(marks.map(({ at, radius }, index) => [`mark ${index}`, around(at, radius, 2 * radius)]));
+  const written = new Map<string, Written>();
+  const write = ({ id, at, others = [], letterPx = LETTER_PX, within = screen }: Label, text: string, isShortest: boolean): boolean => {
     const half = (text.length * letterPx) / 2;
+    const kept = ({ x, y }: Place): Place => ({
+      x: between(within.left + half, x, within.right - half),
+      y: between(within.top + LINE_PX / 2, y, within.bottom - LINE_PX / 2),
+    });
     const fits = (box: Box) =>
-      box.left >= 0 && box.right <= size.width && box.top >= 0 && box.bottom <= size.height && !taken.some((other) => meet(box, other));
-    const place = [at, ...others].find((one) => fits(around(one, half, LINE_PX)));
-    if (!place) continue;
-    taken.push(around(place, half, LINE_PX));
-    written.set(id, place);
-  }
+      isIn(box, isShortest ? screen : within) && isIn(box, screen) && [...taken].every(([other, its]) => other === id || !meet(box, its));
+    const isSeen = isIn(around(at, 0, 0), screen); // else its name would stand at the edge
+    const place = isSeen && [at, ...others].map(kept).find((one) => fits(around(one, half, LINE_PX)));
+    if (!place) return false;
+    taken.set(id, around(place, half, LINE_PX));
+    written.set(id, { ...place, text });
+    return true;
+  };
+  for (const label of labels) write(label, label.texts.at(-1) ?? '', true);
+  for (const label of labels) if (written.has(label.id)) label.texts.slice(0, -1).some((text) => write(label, text, false));
   return written;
 }
 

@@ -62,13 +62,15 @@ interface ValuesProps {
 }
 
 function Values({ title, parameters, about }: ValuesProps) {
-  if (parameters.length === 0) return null;
+  const rows = rowsOf(parameters, about);
+  if (rows.length === 0) return null;
+  const isOneResult = rows.length === 1 && !about; // what programs call it says no more than the heading
   return (
     <>
-      <p className={css.title}>{title}</p>
+      {!isOneResult && <p className={css.title}>{title}</p>}
       <dl className={css.rows}>
-        {rowsOf(parameters, about).map((row) => (
-          <Value key={row.name} row={row} />
+        {rows.map((row) => (
+          <Value key={row.name} row={isOneResult ? { ...row, label: title } : row} />
         ))}
       </dl>
     </>

@@ -70,7 +70,7 @@ class MapViews(Node):
         while True:
             await watched.wait()
             view = _known(self._robot, self._map_name, self._clock.unix_ms(), self._areas)
-            where = (view.pose, view.path) if view is not None else told
+            where = (view.pose, view.path, view.holds) if view is not None else told
             if view is not None and (where != told or quiet_s >= RESTING_INTERVAL_S):
                 told, quiet_s = where, 0.0
                 self.publish(topics.MAP_VIEW, view)
@@ -139,8 +139,9 @@ def view_of(robot: Robot, map_name: str, unix_ms: int, areas: Sequence[MapArea] 
     here = PoseInfo(x=round(pose.x_m, 3), y=round(pose.y_m, 3), yaw=round(pose.yaw_rad, 3))
     goal = PoseInfo(x=way[-1][0], y=way[-1][1]) if way else None
     room = next((area.name for area in areas if area.holds(here.x, here.y)), "")
+    holds = robot.arm.holds if robot.arm is not None else ""
     return MapView(
-        actor=robot.name, map_name=map_name, pose=here, room=room, path=_thinned(way), goal=goal,
+        actor=robot.name, map_name=map_name, pose=here, room=room, holds=holds, path=_thinned(way), goal=goal,
         scan=_scan(robot), unix_ms=unix_ms,
     )  # fmt: skip
 

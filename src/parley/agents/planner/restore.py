@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 
 from parley.agents.planner.steps import Step, When, handed_over, previous, with_givers
 from parley.engine.interrupted import Interrupted, flow_of, order_of
@@ -13,12 +13,17 @@ from parley.umrf.model import GraphState, Node, NodeState
 __all__ = ["adopted_steps", "interruption_text", "met_text", "restored_steps"]
 
 
-def restored_steps(was: Interrupted) -> list[Step]:
+def restored_steps(was: Interrupted, finding: Container[str] = ()) -> list[Step]:
     """What was not finished, to be done again from the interrupted step on.
 
     A step that takes its inputs from one that is done gets the values which that gave; if they were not
     written down, the giver is done again too. A graph that is no simple sequence is none of steps: its
     engine goes on with it as it is (`ActionEngine.restore`).
+
+    Args:
+        was: What was interrupted.
+        finding: Actions that only find something out. They are done again: what they found may have moved
+            since, and a way is called by what was looked for.
     """
     if not was.is_sequence:
         return []
@@ -26,7 +31,7 @@ def restored_steps(was: Interrupted) -> list[Step]:
         Step(
             _call(node),
             state="finished",
-            outputs=dict(was.outputs.get(node.full_name, {})),
+            outputs={} if node.name in finding else dict(was.outputs.get(node.full_name, {})),
             order=order_of(node),
         )
         for node in was.graph.nodes

@@ -136,7 +136,9 @@ class RobotPlans:
         self._graphs.append(name)
         steps: Sequence[Step] = ()
         if not plan.pending and (was.has_flow or not (run.left and held)):
-            steps = adopted_steps(was) if held else restored_steps(was) if run.goes_on == "anew" else ()
+            finding = {info.name for info in self.catalogue(robot) if info.only_finds}
+            anew = run.goes_on == "anew"
+            steps = adopted_steps(was) if held else restored_steps(was, finding) if anew else ()
         if steps and held:
             self._adopt_run(plan, run, was, steps)
         elif steps:
