@@ -56,8 +56,10 @@ describe('feeds', () => {
     expect(isStale(feed('inspection', false), 10_000_000)).toBe(false);
   });
 
-  it('are in order, by robot', () => {
-    const groups = byRobot({ a: feed('map'), b: feed('camera', true, 'Bob'), c: feed('camera') });
+  it('are in order, by robot, those of a robot that is spoken to first', () => {
+    const feeds = { a: feed('map'), b: feed('camera', true, 'Bob'), c: feed('camera') };
+    expect(byRobot(feeds, ['Bob']).map(([name]) => name)).toEqual(['Bob', 'Ada']);
+    const groups = byRobot(feeds, []);
     expect(groups.map(([name, feeds]) => [name, feeds.map((one) => one.name)])).toEqual([
       ['Ada', ['camera', 'map']],
       ['Bob', ['camera']],

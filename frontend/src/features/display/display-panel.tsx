@@ -3,6 +3,7 @@ import { useTranslation } from 'react-i18next';
 
 import { useLive, useWorld } from '@/live/store';
 import { feedKey } from '@/live/world';
+import { useSelection } from '@/state/selection';
 import { Empty, Loading, Panel } from '@/ui/panel';
 
 import css from './display.module.css';
@@ -18,7 +19,8 @@ export function DisplayPanel() {
   const known = useLive((live) => live.world.run !== '');
   const choice = useFeedChoice((state) => state.choice);
   const [large, setLarge] = useState('');
-  const groups = useMemo(() => byRobot(feeds), [feeds]);
+  const chosen = useSelection();
+  const groups = useMemo(() => byRobot(feeds, chosen), [feeds, chosen]);
   const shown = groups.flatMap(([, some]) => some.filter((feed) => isShown(feed, choice)));
   const enlarged = shown.find((feed) => feedKey(feed) === large);
   return (

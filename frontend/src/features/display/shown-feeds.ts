@@ -29,10 +29,11 @@ export const useFeedChoice = create<ChoiceState>()(
 
 export const isShown = (feed: FeedInfo, choice: FeedChoice): boolean => choice[feedKey(feed)] ?? feed.name !== MAP_FEED;
 
-/** All feeds by robot, robots and feeds in alphabetical order. */
-export function byRobot(feeds: Readonly<Record<string, FeedInfo>>): [string, FeedInfo[]][] {
+/** All feeds by robot, those spoken to first; robots and feeds in alphabetical order. */
+export function byRobot(feeds: Readonly<Record<string, FeedInfo>>, chosen: readonly string[]): [string, FeedInfo[]][] {
   const groups = new Map<string, FeedInfo[]>();
-  const sorted = Object.values(feeds).sort((a, b) => a.robot.localeCompare(b.robot) || a.name.localeCompare(b.name));
+  const later = (feed: FeedInfo) => Number(!chosen.includes(feed.robot));
+  const sorted = Object.values(feeds).sort((a, b) => later(a) - later(b) || a.robot.localeCompare(b.robot) || a.name.localeCompare(b.name));
   for (const feed of sorted) groups.set(feed.robot, [...(groups.get(feed.robot) ?? []), feed]);
   return [...groups];
 }

@@ -7,7 +7,7 @@ import css from './map.module.css';
 import { nameOf, type Candidates, type Mark } from './marks';
 import type { Trails } from './use-trails';
 import type { Way as Trial } from './use-way';
-import { aside, boxOf, freeIn, middleOf, roomAt, roomForLabels, textsOf, toScreen, type Label, type Place, type Size, type Viewport } from './viewport';
+import { aside, bounds, boxOf, freeIn, middleOf, roomAt, roomForLabels, textsOf, toScreen, type Label, type Place, type Size, type Viewport } from './viewport';
 
 export interface Rover {
   name: string;
@@ -43,7 +43,7 @@ interface Props {
 const ROBOT_M = 0.18;
 const ROBOT_LEAST_PX = 11;
 const LABEL_BELOW_PX = 20;
-const ASIDE_PX = 16;
+const ASIDE_PX = 17;
 const DOT_PX = 5;
 const ROOM_LETTER_PX = 9.5;
 
@@ -94,7 +94,7 @@ export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, tr
           <Way key={rover.name} rover={rover} showScan={showScan} />
         ))}
       </g>
-      <Labels things={map.objects} rooms={map.rooms} candidates={candidates} rovers={rovers} view={view} size={size} robotPx={robotPx} />
+      <Labels map={map} things={map.objects} rooms={map.rooms} candidates={candidates} rovers={rovers} view={view} size={size} robotPx={robotPx} />
       {rovers.map((rover) => {
         const at = toScreen(view, size, rover.pose);
         const heading = (-(rover.pose.yaw ?? 0) * 180) / Math.PI;
@@ -155,6 +155,7 @@ function Way({ rover, showScan }: { rover: Rover; showScan: boolean }) {
 }
 
 interface LabelsProps {
+  map: MapInfo;
   rooms: readonly MapRoom[];
   candidates: Candidates;
   things: readonly MapThing[];
@@ -164,17 +165,19 @@ interface LabelsProps {
   robotPx: number;
 }
 
-function Labels({ things, rooms, candidates, rovers, view, size, robotPx }: LabelsProps) {
+function Labels({ map, things, rooms, candidates, rovers, view, size, robotPx }: LabelsProps) {
   const robots = rovers.map((rover): Label => {
     const at = toScreen(view, size, rover.pose);
     return { id: `robot ${rover.name}`, texts: rover.title ? [rover.title, rover.name] : [rover.name], at: { x: at.x, y: at.y + robotPx + LABEL_BELOW_PX / 2 } };
   });
+  const { from, to } = bounds(map);
+  const edge: readonly Corner[] = [[from.x, from.y], [to.x, to.y]];
   const named = things.map((thing): Label => {
     const number = candidates.get(thing.id)?.number;
     const texts = number ? [`${number}  ${nameOf(thing)}`, `${number}`] : textsOf(thing, view.scale);
     const at = toScreen(view, size, thing);
-    const room = roomAt(rooms, thing); // over its walls nothing is written
-    return { id: `${number ? 'candidate' : 'thing'} ${thing.id}`, texts, at, others: aside(at, ASIDE_PX), within: room ? boxOf(room.corners, view, size) : undefined };
+    const around = roomAt(rooms, thing)?.corners ?? edge; // over walls nothing is written
+    return { id: `${number ? 'candidate' : 'thing'} ${thing.id}`, texts, at, others: aside(at, ASIDE_PX), within: boxOf(around, view, size) };
   });
   const large = rooms.map((room): Label => {
     const [at, ...others] = [...freeIn(room, things), middleOf(room)].map((place) => toScreen(view, size, place));

@@ -89,7 +89,7 @@ export const textsOf = ({ description, kind }: MapThing, scale: number): readonl
 /** Parts of a room's width and depth. */
 const PARTS = [0.5, 0.35, 0.65, 0.2, 0.8];
 const ROOM_FOR_NAME_M = { x: 0.7, y: 0.15 };
-const LETTER_PX = 7;
+const LETTER_PX = 6.5;
 const LINE_PX = 16;
 
 export interface Label {

@@ -38,6 +38,20 @@ const show = (part: Partial<PlanView> = {}) => {
 };
 
 describe('the plan', () => {
+  it('says that somebody else decided about what one is changing', async () => {
+    const proposal = { id: 'p', robot: 'Ada', message: '', why: '', changes: [], steps: [step({ id: 'go to the box', call: call('Go') })], digest: 'd', by: null };
+    const user = show({ steps: [], state: 'awaiting_approval' });
+    const propose = (seq: number) => act(() => useLive.getState().takeChanges([{ kind: 'proposal', seq, proposal }]));
+    const gone = (seq: number) => act(() => useLive.getState().takeChanges([{ kind: 'proposal_gone', seq, id: 'p' }]));
+    propose(1);
+    gone(2);
+    expect(useToasts.getState().toasts).toEqual([]);
+    propose(3);
+    await user.click(screen.getByRole('button', { name: 'Change' }));
+    gone(4);
+    expect(useToasts.getState().toasts.map(({ message }) => message)).toEqual([expect.stringContaining('Your change was not used.')]);
+  });
+
   it('tells the state of each step in words', () => {
     const states: StepState[] = ['queued', 'running', 'finished', 'failed', 'stopped', 'skipped', 'paused', 'stopping', 'waiting'];
     show({ steps: states.map((state) => step({ id: `step ${state}`, state })) });

@@ -1,7 +1,7 @@
 import { useContext, useEffect, useMemo, useRef, useState, type Ref } from 'react';
 import { useTranslation } from 'react-i18next';
 
-import { useWorld } from '@/live/store';
+import { useLive, useWorld } from '@/live/store';
 import type { PlanView, ProposalView, StepState } from '@/live/types';
 import { planKey } from '@/live/world';
 import { useSelection } from '@/state/selection';
@@ -69,6 +69,7 @@ function PlanOf({ plan }: { plan: PlanView }) {
   const { t } = useTranslation(['plan', 'common']);
   const proposals = useWorld((world) => world.proposals);
   const here = useWorld((world) => world.robots[plan.robot]?.connection === 'here');
+  const lost = useLive((live) => live.connection === 'lost');
   const [editing, setEditing] = useState<PlanView | null>(null);
   const waiting = plan.kind === 'plan' ? proposalsOf(proposals, plan.robot) : [];
   const pending = pendingSteps(plan.steps);
@@ -85,7 +86,8 @@ function PlanOf({ plan }: { plan: PlanView }) {
           {current >= 0 && lines.length > 1 && t('stateStep', { number: current + 1, all: lines.length })}
         </p>
         <HeldBy by={plan.held_by} />
-        {!here && <p className={css.away}>{t('away', { robot: plan.robot })}</p>}
+        {lost && <p className={css.away}>{t('old')}</p>}
+        {!here && !lost && <p className={css.away}>{t('away', { robot: plan.robot })}</p>}
         <PlanControls plan={plan} onEdit={pending.length > 0 && !editing ? () => setEditing(plan) : null} />
       </div>
       {/* eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex -- what scrolls must be reachable by keys */}

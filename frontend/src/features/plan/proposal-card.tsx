@@ -1,9 +1,11 @@
-import { useState } from 'react';
+import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { decidePlan, type Decision } from '@/live/api';
+import { useLive } from '@/live/store';
 import type { ProposalView } from '@/live/types';
 import { attempt } from '@/state/do';
+import { useToasts } from '@/state/toasts';
 import { Button } from '@/ui/button';
 import { quoted, sentence } from '@/ui/words';
 
@@ -17,10 +19,12 @@ import { StepCard } from './step-card';
 export function ProposalCard({ proposal }: { proposal: ProposalView }) {
   const { t } = useTranslation('plan');
   const [editing, setEditing] = useState(false);
+  const ownRef = useNoticeWhenGone(proposal.id, editing);
   const [busy, setBusy] = useState(false);
   const decide = async (decision: Omit<Decision, 'id' | 'digest'>) => {
     setBusy(true);
-    await attempt(() => decidePlan(proposal.robot, { id: proposal.id, digest: proposal.digest, ...decision }));
+    ownRef.current = true;
+    ownRef.current = await attempt(() => decidePlan(proposal.robot, { id: proposal.id, digest: proposal.digest, ...decision }));
     setBusy(false);
   };
   const lines = linesOf(proposal.steps);
@@ -70,4 +74,18 @@ export function ProposalCard({ proposal }: { proposal: ProposalView }) {
       )}
     </section>
   );
+}
+
+/** Says so where somebody else decides about what is being changed here; true while it is decided here. */
+function useNoticeWhenGone(id: string, editing: boolean) {
+  const { t } = useTranslation('plan');
+  const ownRef = useRef(false);
+  useEffect(() => {
+    if (!editing) return;
+    return useLive.subscribe(({ world }, before) => {
+      if (ownRef.current || id in world.proposals || !(id in before.world.proposals)) return;
+      useToasts.getState().show({ tone: 'error', message: t('decidedMeanwhile') });
+    });
+  }, [id, editing, t]);
+  return ownRef;
 }
