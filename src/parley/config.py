@@ -32,6 +32,7 @@ __all__ = [
     "NetworkSettings",
     "SystemConfig",
     "TlsSettings",
+    "UserSettings",
     "language_name",
 ]  # fmt: skip
 
@@ -208,6 +209,15 @@ class TlsSettings(BaseModel):
     """Its private key."""
 
 
+class UserSettings(BaseModel):
+    """By which name a process gets in where others ask for one."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    name: str = Field(min_length=1)
+    password_file: FilePath
+
+
 class Ros2Settings(BaseModel):
     """Into which ROS 2 a process goes: the one that is sourced where it is started, as its variables say."""
 
@@ -240,6 +250,12 @@ class NetworkSettings(BaseModel):
     """Whoever gives no sign of life for so long is taken for gone."""
     tls: TlsSettings | None = None
     """Encryption; None: none. With it all addresses begin with `tls/`."""
+    user: UserSettings | None = None
+    """Who this process is, where a name and a password are asked for."""
+    users: FilePath | None = None
+    """Who gets in here: a file with a line `name:password` for each; None: no name is asked for."""
+    access: FilePath | None = None
+    """Of a router: who may say and hear what; others pass it over. Needs `tls` or `users`."""
     rosbridge: str | None = Field(default=None, pattern=r"^wss?://")
     """The ROS behind this rosbridge instead: `ws://robot:9090`; besides it only `silence_s` counts."""
     ros2: Ros2Settings | None = None

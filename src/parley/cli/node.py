@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import asyncio
 import signal
+from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from parley.cli.choosing import LangOption
 from parley.cli.on_loop import on_loop
-from parley.cli.output import quiet_logs
+from parley.cli.output import emit_json, quiet_logs
 from parley.cli.web import (
     LanOption,
     NoOpenOption,
@@ -20,7 +21,7 @@ from parley.cli.web import (
     page_settings,
     serve_until_interrupted,
 )
-from parley.config import SystemConfig
+from parley.config import NetworkSettings, SystemConfig
 from parley.errors import ConfigError
 from parley.extras import needs
 from parley.network import transport_of
@@ -84,14 +85,37 @@ def agents(
 
 
 @app.command("router")
-def router(config: NetworkOption) -> None:
+def router(
+    config: NetworkOption,
+    access: Annotated[
+        Path | None, typer.Option(help="File with who may say, hear, ask and answer what.")
+    ] = None,
+    show: Annotated[
+        bool,
+        typer.Option("--show", help="Only print the rules made of that, for Zenoh's own routers."),
+    ] = False,
+) -> None:
     """Let the parts of a system find each other, and those reach each other that are clients."""
+    quiet_logs()
     settings = networked(config)
     assert settings.network is not None
     network = settings.network.as_router
     if settings.network.rosbridge is not None or not network.listen:
         raise ConfigError(f"{config}: a router needs an address under `connect`, where the others find it")
-    on_loop(_route(settings.model_copy(update={"network": network})))
+    if access is not None:
+        network = network.model_copy(update={"access": access})
+    if show:
+        emit_json({"access_control": _rules_of(network)})
+    else:
+        on_loop(_route(settings.model_copy(update={"network": network})))
+
+
+def _rules_of(network: NetworkSettings) -> dict[str, Any]:
+    if network.access is None:
+        raise ConfigError("no file says who may what; name it with --access")
+    with needs("zenoh"):
+        from parley.transport.zenoh.access import AccessFile, access_control
+    return access_control(network, AccessFile.load(network.access))
 
 
 def networked(file: Path) -> SystemConfig:
@@ -116,10 +140,18 @@ async def run_system(system: System) -> None:
 
 
 async def _route(settings: SystemConfig) -> None:
-    assert settings.network is not None
-    async with transport_of(settings, node="parley_router"):
-        typer.echo(f"Others find each other at {', '.join(settings.network.listens)}.")
-        await asyncio.Event().wait()
+    network = settings.network
+    assert network is not None
+    transport = transport_of(settings, node="parley_router")
+    with ExitStack() as stack:
+        if network.access is not None:
+            from parley.transport.zenoh.denials import Denials
+
+            stack.enter_context(Denials())
+        async with transport:
+            ruled = f" What {network.access.name} does not allow is denied." if network.access else ""
+            typer.echo(f"Others find each other at {', '.join(network.listens)}.{ruled}")
+            await asyncio.Event().wait()
 
 
 async def _chat(settings: SystemConfig, lang: str | None) -> None:

@@ -10,7 +10,7 @@ from typing import Any, Generic, TypeVar
 
 from parley.messages import ros
 
-__all__ = ["ALL_SERVICES", "ALL_TOPICS", "QoS", "Service", "Topic", "display_topic"]
+__all__ = ["ALL_SERVICES", "ALL_TOPICS", "QoS", "Service", "Topic", "display_topic", "ros_name"]
 
 M = TypeVar("M")
 Req = TypeVar("Req")
@@ -128,7 +128,7 @@ ALL_SERVICES = (GET_MEMORY, GRAPH_GET, GET_INCIDENTS, GET_MAP, GET_AUDIT, RULES)
 def display_topic(target: str, name: str) -> Topic[ros.CompressedImage]:
     """The topic of one finished display feed; characters ROS does not allow become underscores."""
     return Topic(
-        f"/webapp/display_feed/{_ros_name(target)}/{_ros_name(name)}",
+        f"/webapp/display_feed/{ros_name(target)}/{ros_name(name)}",
         ros.CompressedImage, "sensor_msgs/msg/CompressedImage", QoS(latched=True, depth=1),
     )  # fmt: skip
 
@@ -136,21 +136,22 @@ def display_topic(target: str, name: str) -> Topic[ros.CompressedImage]:
 def actor_graph_get(actor: str) -> Service[ros.UmrfGraphGetRequest, ros.UmrfGraphGetResponse]:
     """The query service of one engine."""
     return Service(
-        f"/{_ros_name(actor)}/umrf_graph_get", GRAPH_GET.request, GRAPH_GET.response, GRAPH_GET.ros_type
+        f"/{ros_name(actor)}/umrf_graph_get", GRAPH_GET.request, GRAPH_GET.response, GRAPH_GET.ros_type
     )
 
 
 def actor_site(actor: str) -> Topic[ros.String]:
     """Where one robot is and what it is like."""
-    return _string(f"/{_ros_name(actor)}/parley_site", latched=True, depth=1)
+    return _string(f"/{ros_name(actor)}/parley_site", latched=True, depth=1)
 
 
 def actor_unfinished(actor: str) -> Service[ros.ChatRequest, ros.ChatResponse]:
     """What one engine has not brought to an end."""
-    name = f"/{_ros_name(actor)}/parley_unfinished"
+    name = f"/{ros_name(actor)}/parley_unfinished"
     return Service(name, GET_MEMORY.request, GET_MEMORY.response, GET_MEMORY.ros_type)
 
 
-def _ros_name(text: str) -> str:
+def ros_name(text: str) -> str:
+    """A name as ROS allows it: what else there is becomes underscores."""
     cleaned = "".join(char if char.isascii() and (char.isalnum() or char == "_") else "_" for char in text)
     return f"_{cleaned}" if not cleaned or cleaned[0].isdigit() else cleaned

@@ -8,6 +8,8 @@ from typing import Any, Final
 import zenoh
 
 from parley.config import NetworkSettings
+from parley.files import read_text
+from parley.transport.zenoh.access import AccessFile, access_control
 
 __all__ = ["config"]
 
@@ -18,7 +20,11 @@ GIVE_UP_MS: Final = 2000
 
 
 def config(network: NetworkSettings) -> zenoh.Config:
-    """The library's settings for this network."""
+    """The library's settings for this network.
+
+    Raises:
+        ConfigError: A file of it cannot be read or is wrong.
+    """
     made = zenoh.Config()
     settings: dict[str, Any] = {
         "mode": network.role,
@@ -46,6 +52,14 @@ def config(network: NetworkSettings) -> zenoh.Config:
             "transport/link/tls/connect_certificate": certificate,
             "transport/link/tls/connect_private_key": key,
         }
+    if network.user is not None:
+        settings["transport/auth/usrpwd/user"] = network.user.name
+        settings["transport/auth/usrpwd/password"] = read_text(network.user.password_file).strip()
+    if network.users is not None:
+        read_text(network.users)  # says that it is not there better than the library does
+        settings["transport/auth/usrpwd/dictionary_file"] = str(network.users)
+    if network.access is not None and network.role == "router":
+        settings["access_control"] = access_control(network, AccessFile.load(network.access))
     for name, value in settings.items():
         made.insert_json5(name, json.dumps(value))
     return made
