@@ -6,11 +6,13 @@ import asyncio
 import signal
 import sys
 from collections.abc import Callable
+from contextlib import AsyncExitStack
 from pathlib import Path
 
 from typer.testing import CliRunner
 
 from parley.cli import command_line
+from parley.cli.robot import EMPTY_FLOOR
 from parley.clock import WallClock
 from parley.config import NetworkSettings, SystemConfig
 from parley.demos.observer import Observer
@@ -22,7 +24,11 @@ from parley.messages.status import ActorStatus, StopCommand
 from parley.messages.wire import to_string
 from parley.network import transport_of
 from parley.network_check import examine_network
+from parley.sim.world_file import WorldFile
+from parley.system import System
 from parley.transport.local import LocalTransport
+from parley.web.backend import Backend
+from parley.web.config import WebConfig
 from tests.transport.backends import free_port, until
 
 
@@ -72,6 +78,32 @@ async def test_robots_of_another_process_are_talked_to_and_stopped(tmp_path: Pat
         if robots.returncode is None:
             robots.send_signal(signal.SIGKILL)
         await robots.wait()
+
+
+async def test_a_release_that_is_pressed_while_the_robot_is_out_of_reach_arrives(tmp_path: Path) -> None:
+    at = f"tcp/127.0.0.1:{free_port()}"
+    between = NetworkSettings(role="router", listen=(at,), interface="")
+    settings = SystemConfig(network=NetworkSettings(role="client", connect=(at,), interface="", silence_s=1))
+
+    async with AsyncExitStack() as stack:
+        router = transport_of(SystemConfig(network=between))
+        await router.__aenter__()
+        floor = WorldFile.parse(EMPTY_FLOOR)
+        robots = await stack.enter_async_context(System(floor, settings, part="robots"))
+        page = await stack.enter_async_context(transport_of(settings))
+        backend = await stack.enter_async_context(Backend(page, WebConfig(data_dir=tmp_path)))
+        views = backend.state.robots.views
+        await until(lambda: "Kim" in views and views["Kim"].connection == "here")
+        backend.stopper.stop((), by=person(), id="stop")
+        await until(lambda: views["Kim"].stop.state == "at_rest")
+        await router.__aexit__(None, None, None)
+        await until(lambda: not any(end.elsewhere for end in page.endpoints()))
+        assert backend.stopper.reset(("Kim",), by=person(), id="release") == ""
+        await until(lambda: views["Kim"].stop.release == "sent")
+        assert robots.stop_line.latched("Kim")
+        await stack.enter_async_context(transport_of(SystemConfig(network=between)))
+        await until(lambda: not robots.stop_line.latched("Kim"), within_s=20)
+        await until(lambda: views["Kim"].stop.state == "none")
 
 
 async def test_the_doctor_says_who_is_there_which_address_is_silent_and_whose_clock_is_wrong() -> None:

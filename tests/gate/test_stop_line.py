@@ -160,6 +160,21 @@ async def test_a_blocked_loop_delays_nobody() -> None:
     await asyncio.sleep(0)
 
 
+def test_a_release_that_comes_late_does_not_undo_a_stop_that_it_does_not_know() -> None:
+    line = StopLine()
+    ada, bob = Drive(line, "Ada"), Drive(line, "Bob")
+    line.pull(by=KIM, id="first")
+    line.pull(["Ada"], by=KIM, id="second")
+    (problem,) = line.reset(by=KIM, id="late", stops=("first",))
+    assert (problem.code, "Ada" in problem.message) == ("stopped_since", True)
+    assert (ada.halted, bob.halted) == (True, False)
+    assert line.in_force("Ada") == "second"
+    assert line.reset(["Ada"], by=KIM, id="late", stops=("first",)) == ()  # heard before, and done
+    assert ada.halted
+    assert line.reset(by=KIM, id="next", stops=("first", "second")) == ()
+    assert (ada.halted, line.in_force("Ada")) == (False, "")
+
+
 @pytest.mark.parametrize("round_", range(3))
 def test_a_release_never_undoes_a_later_stop(round_: int) -> None:
     line = StopLine()

@@ -275,6 +275,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "catalogue": [ACTION_INFO],
         "map_name": "hall",
         "unix_ms": 1,
+        "stop": "51",
     },
     status.GraphEvent: {
         "actor": "A",
@@ -394,7 +395,14 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "by": KIM,
     },
     status.StepCommand: {"target": "A", "graph_name": "g", "node": "Move_0", "command": "end"},
-    status.StopCommand: {"command": "reset", "targets": ["A"], "id": "1", "by": KIM, "words": "stop!!"},
+    status.StopCommand: {
+        "command": "reset",
+        "targets": ["A"],
+        "id": "1",
+        "by": KIM,
+        "words": "stop!!",
+        "stops": ["51"],
+    },
     status.StopReport: {"actor": "A", "id": "1", "state": "at_rest"},
     status.SyncEntry: SYNC_ENTRY,
     status.SyncNotice: {

@@ -234,6 +234,16 @@ def test_the_operators_own_stop_is_not_told_twice(view: OperatorView) -> None:
     assert view.on_stop_report(StopReport(actor="Ada", id="s1", state="received")) == []
 
 
+def test_a_release_that_a_robot_did_not_hear_is_said(view: OperatorView) -> None:
+    for name in ("Ada", "Bob"):
+        view.on_status(ActorStatus(actor=name, state="stopped", stop=f"of {name}"), now_s=10.0)
+    view.note_own_release()
+    assert view.known_stops() == ("of Ada", "of Bob")
+    view.on_stop_report(StopReport(actor="Ada", state="reset"))
+    told = [line.text for now_s in (10.0, 11.9, 12.1, 13.0) for line in view.tick(now_s)]
+    assert told == ["Bob has not heard that it is released and stays stopped. Write /reset again."]
+
+
 def test_who_does_not_answer_a_stop_in_time_is_named_once(view: OperatorView) -> None:
     view.on_status(ActorStatus(actor="Ada"), now_s=10.0)
     view.note_own_stop("s1", ["Ada", "Bob"])

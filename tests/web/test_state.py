@@ -34,7 +34,7 @@ from parley.web.models import (
     RobotView,
 )
 from parley.web.plan_state import PlanBook
-from parley.web.robot_state import LOST_AFTER_S, STOP_DEADLINE_S, RobotBook
+from parley.web.robot_state import LOST_AFTER_S, RELEASE_HOLDS_S, STOP_DEADLINE_S, RobotBook
 
 
 class Ids:
@@ -199,6 +199,57 @@ def test_a_stop_that_a_robot_did_not_hear_is_told_to_it_when_it_is_heard_again(s
     assert book.not_taken("A") == StopCommand(targets=("A",), id="s", by=KIM)
     book.on_stop_report(StopReport(actor="A", id="s", state="silent"), unix_ms=9)
     assert (book.views["A"].stop.state, book.not_taken("A")) == ("silent", None)
+
+
+def out_of_reach() -> RobotBook:
+    """Of a robot that was stopped, and released when it could not hear it."""
+    book = RobotBook(lambda change: None)
+    book.on_status(ActorStatus(actor="A", sequence=5), now_s=0, unix_ms=0)
+    book.on_stop(StopCommand(id="s", by=KIM), now_s=1, unix_ms=1)
+    book.on_stop_report(StopReport(actor="A", id="s", state="at_rest"), unix_ms=2)
+    book.on_stop(StopCommand(command="reset", id="r", by=KIM), now_s=3, unix_ms=3)
+    assert (book.views["A"].stop.state, book.views["A"].stop.release) == ("at_rest", "sent")
+    return book
+
+
+def stopped_by(book: RobotBook, stop: str, *, now_s: float, sequence: int = 9) -> None:
+    status = ActorStatus(actor="A", sequence=sequence, state="stopped", at_rest=True, stop=stop)
+    book.on_status(status, now_s=now_s, unix_ms=int(now_s * 1000))
+
+
+def test_a_release_that_a_robot_did_not_hear_is_told_to_it_when_it_is_heard_again() -> None:
+    book = out_of_reach()
+    stopped_by(book, "s", now_s=9)
+    release = StopCommand(command="reset", targets=("A",), id="r", by=KIM, stops=("s",))
+    assert book.not_released("A", now_s=9) == release
+    book.on_stop(release, now_s=9, unix_ms=9)  # it is heard here, too, and waits no longer by that
+    assert book.not_released("A", now_s=9.5) is None
+    stopped_by(book, "s", now_s=11)
+    assert book.not_released("A", now_s=11) == release
+    book.on_stop_report(StopReport(actor="A", id="r", state="reset"), unix_ms=12)
+    assert (book.views["A"].stop.state, book.not_released("A", now_s=20)) == ("none", None)
+
+
+@pytest.mark.parametrize("why", ["too late", "stopped since", "started anew"])
+def test_a_release_that_does_not_count_any_more_is_not_told_and_that_is_said(why: str) -> None:
+    book = out_of_reach()
+    late_s = 3 + RELEASE_HOLDS_S + 0.1 if why == "too late" else 9
+    book.tick(now_s=late_s)
+    stopped_by(
+        book, "t" if why == "stopped since" else "s", now_s=late_s, sequence=0 if why == "started anew" else 9
+    )
+    assert book.not_released("A", now_s=late_s) is None
+    assert (book.views["A"].stop.state, book.views["A"].stop.release) == ("at_rest", "lost")
+    book.on_stop(StopCommand(command="reset", id="r2", by=KIM), now_s=late_s + 1, unix_ms=1)
+    assert book.views["A"].stop.release == "sent"
+
+
+def test_a_release_ends_where_a_new_stop_begins() -> None:
+    book = out_of_reach()
+    book.on_stop(StopCommand(id="t", by=KIM), now_s=4, unix_ms=4)
+    stopped_by(book, "t", now_s=9)
+    assert (book.not_released("A", now_s=9), book.views["A"].stop.release) == (None, "none")
+    assert book.known_stops(()) == ("s", "t")
 
 
 def test_a_stop_that_reached_nobody_is_taken_back_by_a_reset_but_a_confirmed_one_is_not() -> None:

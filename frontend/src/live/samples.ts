@@ -27,7 +27,7 @@ export const robot = (part: Partial<RobotView> & { name: string }): RobotView =>
   trouble: '',
   map_name: '',
   policy: 'run_at_once',
-  stop: { state: 'none', id: '', sent_unix_ms: 0, at_rest_unix_ms: 0 },
+  stop: { state: 'none', id: '', sent_unix_ms: 0, at_rest_unix_ms: 0, release: 'none' },
   graphs: {},
   catalogue: [],
   ...part,

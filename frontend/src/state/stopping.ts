@@ -108,7 +108,7 @@ export interface StoppedRobot {
   stop: RobotView['stop'];
 }
 
-const NO_STOP: RobotView['stop'] = { state: 'none', id: '', sent_unix_ms: 0, at_rest_unix_ms: 0 };
+const NO_STOP: RobotView['stop'] = { state: 'none', id: '', sent_unix_ms: 0, at_rest_unix_ms: 0, release: 'none' };
 const FATES: Record<RobotView['stop']['state'], Fate> = {
   none: 'sent',
   sent: 'sent',

@@ -22,6 +22,7 @@ from parley.errors import ConfigError, NotAllowedError, ParleyError
 from parley.extras import needs
 from parley.gate.ruling import rule
 from parley.gate.table import Effect, verdict
+from parley.latest import Latest
 from parley.messages import topics
 from parley.messages.audit import AuditEvent
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, CommandName, SystemCommand
@@ -115,6 +116,8 @@ class Parley:
         self._stack = AsyncExitStack()
         self._system: System | None = None
         self._door: Listener | None = None
+        self._stops: Latest[str, None] = Latest()
+        """The stops that were made here, by id."""
         self._loop: asyncio.AbstractEventLoop | None = None
 
     async def __aenter__(self) -> Self:
@@ -264,6 +267,7 @@ class Parley:
             ParleyError: A drive could not be told; says whose. The others are stopped.
         """
         names, who, id = tuple(map(self._named, robots)), self._who(by), _new_id()
+        self._stops[id] = None
         outcomes = self._opened.stop_line.pull(names, by=who, id=id, words="stop()", wait_s=0.0)
         self._tell(topics.STOP, StopCommand(targets=names, id=id, by=who, words="stop()"))
         failed = [f"{item.robot}: {item.problem}" for item in outcomes if item.state == "failed"]
@@ -282,7 +286,9 @@ class Parley:
         problems = self._opened.stop_line.reset(names, by=who, id=id)
         if problems:
             raise ParleyError("; ".join(problem.message for problem in problems))
-        self._tell(topics.STOP, StopCommand(command="reset", targets=names, id=id, by=who))
+        told = {status.stop for status in self._listener.statuses.values() if status.stop}
+        stops = tuple(sorted({*told, *self._stops}))
+        self._tell(topics.STOP, StopCommand(command="reset", targets=names, id=id, by=who, stops=stops))
 
     # -- memory ------------------------------------------------------------------------------------------
 

@@ -189,6 +189,7 @@ class ActionEngine(OpenedTogether):
             lambda status: self._publish_payload(topics.ACTOR_STATUS, status),
             heartbeat_s=self._heartbeat_s,
             unix_ms=self._clock.unix_ms,
+            stop=lambda: self._line.in_force(self.actor),
         )
         self._presence.open()
         stack.push_async_callback(self._presence.close)

@@ -45,6 +45,7 @@ class Presence:
         publish: Where the status goes.
         heartbeat_s: Wall time between two unchanged ones.
         unix_ms: Tells what the clock shows.
+        stop: Gives the id of the emergency stop in force.
     """
 
     def __init__(
@@ -57,10 +58,11 @@ class Presence:
         *,
         heartbeat_s: float,
         unix_ms: Callable[[], int] = lambda: 0,
+        stop: Callable[[], str] = lambda: "",
     ) -> None:
         self._actor, self._runs, self._catalogue = actor, runs, catalogue
         self._robot, self._publish, self._heartbeat_s = robot, publish, heartbeat_s
-        self._unix_ms = unix_ms
+        self._unix_ms, self._stop = unix_ms, stop
         self._sequence = 0
         self._changed = asyncio.Event()
         self._task: asyncio.Task[None] | None = None
@@ -111,6 +113,7 @@ class Presence:
                 graphs={run.name: run.state.value for run in self._runs.all},
                 catalogue=tuple(self._catalogue()),
                 unix_ms=self._unix_ms(),
+                stop=self._stop(),
             )
         )
         self._sequence += 1

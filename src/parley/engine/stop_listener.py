@@ -87,7 +87,7 @@ class StopListener:
                     self._stops[command.id] = False
                 self._line.pull(targets, by=command.by, id=command.id, words=command.words, wait_s=0.0)
             case "reset":
-                if problems := self._line.reset(targets, by=command.by, id=command.id):
+                if problems := self._line.reset(targets, by=command.by, id=command.id, stops=command.stops):
                     self._complain(problems)
                 else:
                     self._stops.update(dict.fromkeys(self._stops, True))

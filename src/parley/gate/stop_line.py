@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -74,6 +74,8 @@ class StopLine:
         self._holds: dict[str, frozenset[str]] = {}
         self._resets: deque[str] = deque(maxlen=100)
         """Ids of those that took effect: heard again, late, one must not release what was stopped since."""
+        self._newest: dict[str, str] = {}
+        """Robot -> the id of the emergency stop in force, as far as it came to this line."""
         self._saved = self._file.save(self._latched)  # so that there is a file which can be emptied later
 
     def close(self) -> None:
@@ -126,6 +128,10 @@ class StopLine:
         """Whether that holds for a robot that is not tied to this line."""
         return robot not in self._tied and self.latched(robot)
 
+    def in_force(self, robot: str) -> str:
+        """The id of the emergency stop of that robot; empty: none, or one of an earlier process."""
+        return self._newest.get(robot, "") if self.latched(robot) else ""
+
     def held(self, robot: str) -> bool:
         """Whether it stands still while a message is read."""
         return any(not names or robot in names for names in tuple(self._holds.values()))
@@ -155,6 +161,7 @@ class StopLine:
             self._latched = self._latched.stopped(command.targets)
             self._saved = self._file.save(self._latched)
             saved = self._saved
+            self._newest.update(dict.fromkeys(command.targets or (*self._known, *self._newest), id))
             tied = self._named(command.targets)
             absent = sorted({*(command.targets or self._known)} - {item.robot for item in tied})
         problems = {item.robot: self._tell_drive(item) for item in tied}
@@ -208,6 +215,7 @@ class StopLine:
         *,
         by: Principal | None,
         id: str = "",
+        stops: Collection[str] = (),
     ) -> tuple[Problem, ...]:
         """Permit motion again; nothing moves by it. Only a person's counts.
 
@@ -215,6 +223,7 @@ class StopLine:
             targets: Robots by name; none: all.
             by: Who releases.
             id: Names this reset; resetting again with the same id does nothing more.
+            stops: See `StopCommand.stops`.
 
         Returns:
             Why it was refused, or which drives could not be told (these stay latched).
@@ -228,17 +237,20 @@ class StopLine:
                     "reset_refused",
                 ),
             )
-        command = StopCommand(command="reset", targets=self._meant(targets), id=id, by=by)
+        named = self._meant(targets)
         with self._lock:
             if id and id in self._resets:
                 return ()
+            problems, named = self._stopped_since(named, stops)
+            if problems and not named:
+                return tuple(problems)
             self._resets.append(id)
+            command = StopCommand(command="reset", targets=named, id=id, by=by)
             self._latched = self._latched.released(command.targets, self._known)
             for name in [name for name, held in self._holds.items() if _ended_by(held, command.targets)]:
                 del self._holds[name]  # whoever reads may have died, and a person says that it may go on
             self._saved = self._file.save(self._latched)
             tied = self._named(command.targets)
-        problems = []
         for item in tied:
             why = self._tell_drive(item)
             if why:
@@ -259,6 +271,20 @@ class StopLine:
         return self._saved
 
     # -- inside ---------------------------------------------------------------------------------------------
+
+    def _stopped_since(
+        self, named: tuple[str, ...], stops: Collection[str]
+    ) -> tuple[list[Problem], tuple[str, ...]]:
+        """Whom a release that knows these stops leaves stopped, and whom not; the caller holds the lock."""
+        every = named or tuple(sorted(self._known))
+        since = [name for name in every if stops and self.in_force(name) not in ("", *stops)]
+        problems = [
+            Problem(
+                "", f"{name} was stopped again since", "look at it, and release that stop", "stopped_since"
+            )
+            for name in since
+        ]
+        return problems, tuple(name for name in every if name not in since) if since else named
 
     def _stands(self, robot: str) -> bool:
         return self.latched(robot) or self.held(robot)

@@ -123,6 +123,8 @@ class ActorStatus(Payload):
     map_name: str = ""
     unix_ms: int = 0
     """What the clock of its machine showed."""
+    stop: str = ""
+    """Of `stopped`: the id of the emergency stop in force; empty: it was before the engine started."""
 
 
 class GraphEvent(Payload):
@@ -290,6 +292,9 @@ class StopCommand(Payload):
     """Who stops or releases; a reset counts only from a person."""
     words: str = ""
     """What was said or pressed."""
+    stops: tuple[str, ...] = ()
+    """Of `reset`: the stops that whoever releases knows of, by id. One that came after them stays in force,
+    however late the release arrives. None: whichever is in force."""
 
 
 class StopReport(Payload):

@@ -267,8 +267,11 @@ class TerminalClient:
             id=uuid.uuid4().hex,
             by=person(device="terminal"),
             words=f"/{command}",
+            stops=self._view.known_stops() if command == "reset" else (),
         )
         self._link.send(message)
+        if command == "reset":
+            self._view.note_own_release(message.targets)
         if command == "stop":
             self._view.note_own_stop(message.id, message.targets)
             self._note(_STOPPED_ALL if is_for_all else _STOPPED, robot=self._view.selected)

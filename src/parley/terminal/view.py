@@ -45,6 +45,7 @@ STOPS: Final = {
     "silent": "{robot} does not answer. Look whether it stands.",
     "reset": "{robot} may move again. Write “carry on” to go on.",
 }
+NOT_RELEASED: Final = "{robot} has not heard that it is released and stays stopped. Write /reset again."
 """`StopReport.state` in words."""
 _DRAFT_CHARS = 70
 
@@ -71,6 +72,8 @@ class RobotView:
     name: str
     state: str = "idle"
     """`ActorStatus.state` of the last heartbeat."""
+    stop: str = ""
+    """The emergency stop in force, as it said last."""
     seen_s: float = 0.0
     """Wall time of the last heartbeat."""
     is_here: bool = False
@@ -130,6 +133,8 @@ class OperatorView:
         self._own_stops: set[str] = set()
         self._silent_s: dict[str, float | None] = {}
         """Robots that have not answered a stop -> since when, in wall time."""
+        self._unreleased_s: dict[str, float | None] = {}
+        """The same for a release."""
 
     def say(self, template: str, **values: object) -> str:
         """A sentence of the terminal's own, with ``{names}`` filled in."""
@@ -155,7 +160,20 @@ class OperatorView:
     def note_own_stop(self, stop_id: str, targets: Sequence[str] = ()) -> None:
         """Remember a stop command of this operator, who was told about it already; no targets means all."""
         self._own_stops.add(stop_id)
-        self._silent_s |= dict.fromkeys(targets or [robot.name for robot in self.here])
+        named = targets or [robot.name for robot in self.here]
+        self._silent_s |= dict.fromkeys(named)
+        for name in named:
+            self._unreleased_s.pop(name, None)
+
+    def note_own_release(self, targets: Sequence[str] = ()) -> None:
+        """Remember whom this operator released, of those who are stopped; no targets means all."""
+        named = targets or [robot.name for robot in self.here]
+        stopped = [robot.name for robot in self.here if robot.state == "stopped"]
+        self._unreleased_s |= dict.fromkeys(name for name in named if name in stopped)
+
+    def known_stops(self) -> tuple[str, ...]:
+        """The emergency stops that this operator knows of, by id."""
+        return tuple(sorted({robot.stop for robot in self.here if robot.stop} | self._own_stops))
 
     def on_feedback(self, feedback: ChatFeedback) -> list[Line]:
         """A robot speaks."""
@@ -224,7 +242,7 @@ class OperatorView:
         robot = self._robot(status.actor)
         is_new, was_lost = not robot.is_here, robot.is_lost
         robot.is_here, robot.is_lost = True, False
-        robot.state, robot.seen_s = status.state, now_s
+        robot.state, robot.stop, robot.seen_s = status.state, status.stop, now_s
         self.selected = self.selected or robot.name
         if is_new:
             return [Line("note", self.say("{robot} is here.", robot=robot.name))]
@@ -237,18 +255,21 @@ class OperatorView:
             if not robot.is_lost and now_s - robot.seen_s > LOST_AFTER_S:
                 robot.is_lost = True
                 lines.append(Line("problem", self.say("No contact with {robot}.", robot=robot.name)))
-        for name, since_s in list(self._silent_s.items()):
-            if since_s is None:
-                self._silent_s[name] = now_s
-            elif now_s - since_s > ANSWERS_WITHIN_S:
-                del self._silent_s[name]
-                lines.append(Line("problem", self.say(STOPS["silent"], robot=name)))
+        for waiting, words in ((self._silent_s, STOPS["silent"]), (self._unreleased_s, NOT_RELEASED)):
+            for name, since_s in list(waiting.items()):
+                if since_s is None:
+                    waiting[name] = now_s
+                elif now_s - since_s > ANSWERS_WITHIN_S:
+                    del waiting[name]
+                    lines.append(Line("problem", self.say(words, robot=name)))
         return lines
 
     def on_stop_report(self, report: StopReport) -> list[Line]:
         """A robot says what became of an emergency stop."""
         robot = self._robot(report.actor)
         self._silent_s.pop(report.actor, None)
+        if report.state == "reset":
+            self._unreleased_s.pop(report.actor, None)
         if report.state != "reset":
             robot.state = "stopped"
         elif robot.state == "stopped":

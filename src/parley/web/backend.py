@@ -145,6 +145,7 @@ class Backend:
             lambda command: _in(loop, lambda: self.link.send(command)),
             self.clock,
             self._at_rest,
+            lambda targets: self.state.robots.known_stops(targets),
         )
         self.sessions.tell = self.link.send
         await self.sessions.refresh()

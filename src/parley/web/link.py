@@ -242,6 +242,9 @@ class Link:
             self._state.chat.on_restart(status.actor)
         if (missed := self._state.robots.not_taken(status.actor)) is not None:
             self.send(missed)
+        now_s = self._clock.wall_s()
+        if (release := self._state.robots.not_released(status.actor, now_s=now_s)) is not None:
+            self.send(release)
         if before is None or before.catalogue != status.catalogue:
             self._state.plans.on_catalogue(status.actor)
         if before is None or restarted:

@@ -63,6 +63,9 @@ class StopView(WebModel):
     id: str = ""
     sent_unix_ms: int = 0
     at_rest_unix_ms: int = 0
+    release: Literal["none", "sent", "lost"] = "none"
+    """`sent`: a person released it, and it has not said that it heard; it is told again once it is heard.
+    `lost`: it did not hear that in time, and stays stopped until somebody releases it anew."""
 
 
 class AbilityView(ActionInfo):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from typing import Final
 
 from parley.messages.status import ActorStatus, PlanUpdate, StopCommand, StopReport
@@ -14,8 +15,20 @@ LOST_AFTER_S: Final = 5.0
 """Wall time without a heartbeat after which a robot counts as out of contact."""
 STOP_DEADLINE_S: Final = 3.0
 """Wall time from an emergency stop within which the robot must have confirmed that it stands."""
+RELEASE_HOLDS_S: Final = 30.0
+"""Wall time for which a release waits for a robot out of reach: who pressed it still looks."""
+AGAIN_S: Final = 1.0
 _AFTER: Final = {"sent": "silent", "received": "moves"}
 """What a stop that is not confirmed becomes after the deadline."""
+
+
+@dataclass(slots=True)
+class _Release:
+    """One that a robot has not confirmed."""
+
+    command: StopCommand
+    pressed_s: float
+    told_s: float
 
 
 class RobotBook:
@@ -35,6 +48,10 @@ class RobotBook:
         """The newest stop of each robot."""
         self._received: set[str] = set()
         """Whose engine confirmed the stop that is on."""
+        self._known_stops: dict[str, frozenset[str]] = {}
+        """The stops of each robot that were heard of here since it was released, by id."""
+        self._releases: dict[str, _Release] = {}
+        """Whose release is not confirmed."""
         self._policies: dict[str, Policy] = {}
         """What the planner told, of robots too that were not heard of yet."""
 
@@ -57,8 +74,9 @@ class RobotBook:
     def remove(self, name: str) -> None:
         """Take a robot off the list; it comes back with its next heartbeat."""
         if self.views.pop(name, None) is not None:
-            for book in (self._seen_s, self._sequence, self._stop_s, self._stops):
+            for book in (self._seen_s, self._sequence, self._stop_s, self._stops, self._known_stops):
                 book.pop(name, None)
+            self._releases.pop(name, None)
             self._received.discard(name)
             self._emit(RobotGone(seq=0, name=name))
 
@@ -116,11 +134,27 @@ class RobotBook:
             if command.command == "stop":
                 self._stop_s[name], self._stops[name] = now_s, command
                 self._received.discard(name)
+                self._learn_stop(name, command.id)
+                self._releases.pop(name, None)
                 stop = StopView(state="sent", id=command.id, sent_unix_ms=unix_ms)
                 self._put(view.model_copy(update={"stop": stop}))
-            elif name not in self._received and view.stop.state in ("sent", "silent"):
-                # Nobody ever took it, so nobody will confirm that it is taken back.
-                self._put(view.model_copy(update={"stop": StopView()}))
+                continue
+            told = self._releases.get(name)
+            if view.stop.state != "none" and (told is None or told.command.id != command.id):
+                known = self.known_stops((name,))
+                release = command.model_copy(update={"targets": (name,), "stops": command.stops or known})
+                self._releases[name] = _Release(release, now_s, now_s)
+                stop = view.stop.model_copy(update={"release": "sent"})
+                if name not in self._received and view.stop.state in ("sent", "silent"):
+                    stop = StopView()  # nobody ever took it, so nobody will confirm that it is taken back
+                self._put(view.model_copy(update={"stop": stop}))
+
+    def _learn_stop(self, name: str, id: str) -> None:
+        self._known_stops[name] = self._known_stops.get(name, frozenset()) | {id}
+
+    def known_stops(self, targets: Iterable[str]) -> tuple[str, ...]:
+        """The stops of these robots, or of all, that whoever looks here knows of."""
+        return tuple(sorted({id for name in self._meant(targets) for id in self._known_stops.get(name, ())}))
 
     def not_taken(self, name: str) -> StopCommand | None:
         """The stop that a robot did not hear, though it is heard itself: it was out of reach then."""
@@ -130,6 +164,14 @@ class RobotBook:
         stop = self._stops.get(name)
         return None if stop is None else stop.model_copy(update={"targets": (name,)})
 
+    def not_released(self, name: str, *, now_s: float) -> StopCommand | None:
+        """The release that a robot did not hear, though it is heard itself: it was out of reach."""
+        release, view = self._releases.get(name), self.views.get(name)
+        if release is None or view is None or view.state != "stopped" or now_s - release.told_s < AGAIN_S:
+            return None
+        release.told_s = now_s
+        return release.command
+
     def on_stop_report(self, report: StopReport, *, unix_ms: int) -> None:
         """A robot tells what became of a stop."""
         view = self.views.get(report.actor)
@@ -137,6 +179,8 @@ class RobotBook:
             return
         stop = view.stop
         if report.state == "reset":
+            self._releases.pop(report.actor, None)
+            self._known_stops.pop(report.actor, None)
             self._received.discard(report.actor)
             stop = StopView()
         else:
@@ -168,7 +212,15 @@ class RobotBook:
             if now_s - self._stop_s.get(name, now_s) > STOP_DEADLINE_S and view.stop.state in _AFTER:
                 late = {"state": _AFTER[view.stop.state]}
                 view = view.model_copy(update={"stop": view.stop.model_copy(update=late)})
+            release = self._releases.get(name)
+            if release is not None and now_s - release.pressed_s > RELEASE_HOLDS_S:
+                view = view.model_copy(update={"stop": self._lost(name, view.stop)})
             self._put(view)
+
+    def _lost(self, name: str, stop: StopView) -> StopView:
+        """Nobody is told of that release any more."""
+        self._releases.pop(name, None)
+        return stop if stop.state == "none" else stop.model_copy(update={"release": "lost"})
 
     def _meant(self, targets: Iterable[str]) -> list[str]:
         named = [name for target in targets if (name := self.resolve(target)) is not None]
@@ -180,11 +232,18 @@ class RobotBook:
         if status.state != "stopped":
             if restarted and name not in self._received and stop.state in ("sent", "silent"):
                 return stop  # it is told of it again
+            self._releases.pop(name, None)
             if restarted:
                 self._received.discard(name)
                 return StopView()
             return stop
         self._received.add(name)
+        if status.stop:
+            self._learn_stop(name, status.stop)
+        if (release := self._releases.get(name)) is not None:
+            # It may have been stopped anew meanwhile, or before it was started anew.
+            other = restarted or (bool(status.stop) and status.stop not in release.command.stops)
+            stop = self._lost(name, stop) if other else stop.model_copy(update={"release": "sent"})
         if status.at_rest and stop.state != "at_rest":
             return stop.model_copy(update={"state": "at_rest", "at_rest_unix_ms": unix_ms})
         return stop.model_copy(update={"state": "received"}) if stop.state == "none" else stop

@@ -38,7 +38,7 @@ SNAPSHOT_ENTRIES = 100
 """How much of the conversation a snapshot holds, besides open questions."""
 INCIDENTS_KEPT = 200
 
-_STOP_CODES = frozenset({"stop_failed", "reset_failed", "still_moving"})
+_STOP_CODES = frozenset({"stop_failed", "reset_failed", "still_moving", "stopped_since"})
 
 
 class WebState:

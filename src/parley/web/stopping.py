@@ -44,6 +44,7 @@ class Stopper:
         send: Publishes a command, sooner or later; may be called from any thread.
         clock: Wall time.
         at_rest: Whether a robot stands, measured now; None: that is not known here.
+        known_stops: Gives the ids of the stops of these robots that are shown.
     """
 
     def __init__(
@@ -53,7 +54,9 @@ class Stopper:
         send: Callable[[StopCommand], None],
         clock: Clock,
         at_rest: Callable[[str], bool | None] = lambda _: None,
+        known_stops: Callable[[Iterable[str]], tuple[str, ...]] = lambda _: (),
     ) -> None:
+        self._known_stops = known_stops
         self._line, self._robots, self._send = line, robots, send
         self._clock, self._at_rest = clock, at_rest
         self._held: Latest[str, None] = Latest(REMEMBERED)
@@ -75,7 +78,7 @@ class Stopper:
     def reset(self, targets: Iterable[str], *, by: Principal | None, id: str) -> str:
         """Permit motion again; why not, if it is refused."""
         named = self._named(targets)
-        command = StopCommand(command="reset", targets=named, id=id, by=by)
+        command = StopCommand(command="reset", targets=named, id=id, by=by, stops=self._known_stops(named))
         if self._line is not None and (problems := self._line.reset(named, by=by, id=id)):
             return "; ".join(problem.message for problem in problems)
         self._send(command)

@@ -31,7 +31,13 @@ beforeEach(() => {
 
 afterEach(() => vi.useRealTimers());
 
-const stop = (state: StopView['state']): StopView => ({ state, id: 's', sent_unix_ms: 1000, at_rest_unix_ms: 0 });
+const stop = (state: StopView['state'], release: StopView['release'] = 'none'): StopView => ({
+  state,
+  id: 's',
+  sent_unix_ms: 1000,
+  at_rest_unix_ms: 0,
+  release,
+});
 
 const show = (...states: StopView['state'][]) => {
   const robots = states.map((state, index) => robot({ name: ['Ada', 'Bob', 'Cleo'][index] ?? '', stop: stop(state) }));
@@ -133,6 +139,15 @@ describe('stopping', () => {
     expect(screen.queryByText(/^Ada is stopped/)).toBeNull();
     await user.click(screen.getByRole('button', { name: 'Each of them' }));
     expect(screen.getAllByText(/ is stopped and stays so/)).toHaveLength(3);
+  });
+
+  it('says that a release has not been heard, and that it was in vain', () => {
+    show('at_rest');
+    const ada = (release: StopView['release']) => [robot({ name: 'Ada', stop: stop('at_rest', release) })];
+    act(() => useLive.getState().takeSnapshot(snapshot({ robots: ada('sent') })));
+    screen.getByText(/^Released, but not heard yet: Ada/);
+    act(() => useLive.getState().takeSnapshot(snapshot({ robots: ada('lost') })));
+    screen.getByText(/^The release has not reached Ada/);
   });
 
   it('releases many at once after a second yes that names them', async () => {

@@ -75,6 +75,8 @@ function Many({ robots }: { robots: readonly StoppedRobot[] }) {
   const { t, i18n } = useTranslation('stop');
   const [each, setEach] = useState(false);
   const names = (fate: StoppedRobot['fate']) => robots.filter((robot) => robot.fate === fate).map((robot) => robot.name);
+  const unheard = (release: (typeof UNHEARD)[number]) =>
+    robots.filter((robot) => robot.stop.release === release).map((robot) => robot.name);
   const doubtful = DOUBTFUL.map((fate) => [fate, names(fate)] as const).filter(([, named]) => named.length > 0);
   return (
     <>
@@ -88,6 +90,14 @@ function Many({ robots }: { robots: readonly StoppedRobot[] }) {
             {t(`${fate}Many`, { names: nameList(named, i18n.language) })}
           </p>
         ))}
+        {UNHEARD.map((release) => [release, unheard(release)] as const).map(
+          ([release, named]) =>
+            named.length > 0 && (
+              <p key={release} className={css.overdue}>
+                {t(`release.${release}`, { name: nameList(named, i18n.language) })}
+              </p>
+            ),
+        )}
         <p className={css.resting}>{t('resting', { resting: names('stands').length, all: robots.length })}</p>
         <div className={css.deeds}>
           <Button icon={each ? 'up' : 'down'} aria-expanded={each} onPress={() => setEach(!each)}>
@@ -108,6 +118,7 @@ function Many({ robots }: { robots: readonly StoppedRobot[] }) {
 }
 
 const DOUBTFUL = ['moves', 'silent'] as const;
+const UNHEARD = ['sent', 'lost'] as const;
 
 /** One of three things is said of each: it stands, it does not, it does not answer; before that, that it was told. */
 function Stopped({ robot: { name, fate, stop } }: { robot: StoppedRobot }) {
@@ -130,6 +141,7 @@ function Stopped({ robot: { name, fate, stop } }: { robot: StoppedRobot }) {
           )}
         </p>
       )}
+      {stop.release !== 'none' && <p className={css.overdue}>{t(`release.${stop.release}`, { name })}</p>}
       <Release names={[name]} label={t('reset')} />
     </div>
   );
