@@ -16,7 +16,7 @@ from parley.messages.chat import SYSTEM_COMMANDS, ChatAction, ChatFeedback, Chat
 from parley.messages.display import DisplayFeed
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.incident import Incident
-from parley.messages.map import MapView
+from parley.messages.map import MapView, PlacesKept
 from parley.messages.memory import AddToMemory, MemoryEvent, RemoveMemory
 from parley.messages.robot import Notice, RulesInForce
 from parley.messages.status import (
@@ -61,6 +61,7 @@ PAYLOADS: dict[str, tuple[type[BaseModel], ...]] = {
     "/parley/map_view": (MapView,),
     "/parley/audit": (AuditEvent,),
     "/parley/attendance": (Attendance,),
+    "/parley/places_kept": (PlacesKept,),
     "/parley/rules_in_force": (RulesInForce,),
     "/parley/missions": (MissionList,),
     "/parley/notice": (Notice,),

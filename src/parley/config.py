@@ -430,6 +430,11 @@ class SystemConfig(BaseModel, TextFile):
         return self.data_dir / "found_things.json" if self.data_dir is not None else None
 
     @property
+    def places_file(self) -> Path | None:
+        """What people put on the maps, None if it is not kept."""
+        return self.data_dir / "places.json" if self.data_dir is not None else None
+
+    @property
     def audit_file(self) -> Path | None:
         """The log of who did what, None if it is not kept."""
         return self.data_dir / "audit.db" if self.data_dir is not None else None

@@ -13,6 +13,8 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Final, Literal
 
+import structlog
+
 from parley.actions.context import ActionContext
 from parley.agents.display.camera_feed import CameraFeed
 from parley.agents.display.map_feed import MapFeed, MapViews
@@ -24,13 +26,14 @@ from parley.engine.presence import is_at_rest
 from parley.engine.services import ContextServices
 from parley.engine.unfinished import Unfinished
 from parley.engine.watchdog import LoopWatchdog
-from parley.errors import ActionFailure
+from parley.errors import ActionFailure, FileFormatError, InvalidMessageError
 from parley.gate.book import RuleBook
 from parley.gate.stop_line import StopLine
 from parley.language.base import Language
 from parley.messages import ros, topics
+from parley.messages.map import PlacesKept
 from parley.messages.robot import RobotSite
-from parley.messages.wire import to_string
+from parley.messages.wire import decode, to_string
 from parley.opening import OpenedTogether
 from parley.robots.base import Robot
 from parley.robots.fleet import Fleet
@@ -44,12 +47,16 @@ from parley.world.found import FoundThings
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject, ObjectMap
 from parley.world.occupancy import NO_MAP, OccupancyMap
+from parley.world.placed import Placed
 from parley.world.telling import floor_of, told_objects
 from parley.world.whereabouts import Footprint
 
 __all__ = ["Engines", "WorldView"]
 
 GREETS_AFTER_S: Final = 0.2
+_NOTHING: Final = Placed()
+
+log = structlog.get_logger(__name__)
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,8 +69,8 @@ class WorldView:
 
     @property
     def objects(self) -> ObjectMap:
-        """The objects people may name, with what was found."""
-        return self.engines.known
+        """The objects people may name, with what they put there and what was found."""
+        return self.engines.known_on(self.occupancy.name)
 
     @property
     def taken(self) -> tuple[Spot, ...]:
@@ -85,7 +92,8 @@ class WorldView:
         """See `parley.actions.context.World.note`."""
         if self.occupancy is not NO_MAP and not self.occupancy.is_free(place.x_m, place.y_m):
             return None
-        thing = await self.engines.found.note(label, place, self.engines.objects)
+        before = self.engines.placed_on(self.occupancy.name)
+        thing = await self.engines.found.note(label, place, before.applied(self.engines.objects))
         self.engines.tell_sites()
         return thing
 
@@ -137,6 +145,7 @@ class Engines(OpenedTogether):
         """What robots found besides."""
         self.journal: Journal | None = None
         """What they do is written down in; there once it is open."""
+        self._placed: dict[str, Placed] = {}
         self._sites: dict[str, tuple[RobotSite, topics.Topic[ros.String]]] = {}
         self._engines: list[ActionEngine] = []
         self._heard_by = 0
@@ -146,8 +155,21 @@ class Engines(OpenedTogether):
 
     @property
     def known(self) -> ObjectMap:
-        """What people may name: the object map, with what robots found."""
-        return self.found.added_to(self.objects)
+        """What people may name where the first robot is: see `known_on`."""
+        return self.known_on(next((site.floor.name for site, _ in self._sites.values() if site.floor), ""))
+
+    def known_on(self, map_name: str) -> ObjectMap:
+        """The object map, with what people put on that map and what robots found."""
+        placed = self.placed_on(map_name)
+        return placed.applied(self.found.added_to(placed.applied(self.objects)))
+
+    def placed_on(self, map_name: str) -> Placed:
+        """What people put on a map."""
+        return self._placed.get(map_name, _NOTHING)
+
+    def occupancy(self, robot: str) -> OccupancyMap:
+        """The floor a robot drives by."""
+        return self._fleet.occupancy(robot)
 
     def at_rest(self, robot: str) -> bool | None:
         """Whether a robot stands, measured now; None: it is not of these. From any thread."""
@@ -161,9 +183,19 @@ class Engines(OpenedTogether):
 
     def tell_sites(self) -> None:
         """Tell where the robots are and what is known to be there."""
-        objects = told_objects(self.known)
         for site, topic in self._sites.values():
+            objects = told_objects(self.known_on(site.floor.name if site.floor else ""))
             self._notifier.send(topic, to_string(site.model_copy(update={"objects": objects})))
+
+    def _on_places(self, message: ros.String) -> None:
+        """People put something on a map."""
+        try:
+            kept = decode(PlacesKept, message.data)
+            self._placed = {name: Placed.of_json(told) for name, told in kept.maps.items()}
+        except (InvalidMessageError, FileFormatError) as error:
+            log.warning("unreadable places", error=str(error))
+            return
+        self.tell_sites()
 
     async def _open(self, stack: AsyncExitStack) -> None:
         enter, config, clock = stack.enter_async_context, self._config, self._fleet.clock
@@ -184,6 +216,8 @@ class Engines(OpenedTogether):
         stack.push_async_callback(watchdog.close)
         for name in self.names:
             self._describe(name)
+        heard = await self._transport.subscribe(topics.PLACES_KEPT, self._on_places, depth=1)
+        stack.push_async_callback(heard.close)
         self.tell_sites()
         for name in self.names:
             await self._open_robot(stack, name, self.journal)
@@ -266,9 +300,8 @@ class Engines(OpenedTogether):
         self._engines.append(engine)
         if "camera" in robot.capabilities:
             await enter(CameraFeed(transport, robot, self._config.camera_hz))
-        areas = view.objects.areas
-        await enter(MapViews(transport, robot, view.occupancy.name, clock, areas))
-        await enter(MapFeed(transport, robot, view.occupancy, view.objects.objects, clock))
+        await enter(MapViews(transport, robot, view.occupancy.name, clock, lambda: view.objects))
+        await enter(MapFeed(transport, robot, view.occupancy, lambda: view.objects.objects, clock))
 
 
 def _standing(robot: Robot) -> tuple[Spot, ...]:

@@ -1,8 +1,10 @@
-"""Reading files that people write: what is wrong with one is said with its name and the field."""
+"""Files that people write or read: what is wrong with one is said with its name and the field."""
 
 from __future__ import annotations
 
 import json
+import os
+import tempfile
 from abc import abstractmethod
 from pathlib import Path
 from typing import Any, Final, Self, TypeVar
@@ -13,7 +15,10 @@ from pydantic_core import ErrorDetails
 
 from parley.errors import FileFormatError
 
-__all__ = ["TextFile", "field_path", "parse_json", "parse_yaml", "read_text", "validated", "validated_yaml"]
+__all__ = [
+    "TextFile", "field_path", "parse_json", "parse_yaml", "read_text", "replace_text", "validated",
+    "validated_yaml",
+]  # fmt: skip
 
 M = TypeVar("M", bound=BaseModel)
 
@@ -60,6 +65,22 @@ def read_text(path: Path) -> str:
         raise FileFormatError(path.name or str(path), "", f"cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise FileFormatError(path.name, "", f"is not UTF-8 text: {error.reason}") from error
+
+
+def replace_text(path: Path, text: str) -> None:
+    """Make this the text of a file, as a whole or not at all; it is on the disk when this returns.
+
+    Raises:
+        OSError: It cannot be written.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.NamedTemporaryFile(
+        "w", encoding="utf-8", newline="", dir=path.parent, prefix=path.name, delete=False
+    ) as file:
+        file.write(text)
+        file.flush()
+        os.fsync(file.fileno())
+    os.replace(file.name, path)  # noqa: PTH105 - the temporary file has only a name
 
 
 def parse_json(text: str, file: str) -> Any:

@@ -19,6 +19,7 @@ from parley.agents.display.display_interface import DisplayInterface
 from parley.agents.display.map_service import MapService
 from parley.agents.memory import MemoryNode
 from parley.agents.notices import Notices
+from parley.agents.places import Places
 from parley.agents.planner.umrf_planner import UmrfPlanner
 from parley.agents.planner.unattended import UnattendedPlans
 from parley.agents.recovery.error_handler import ErrorHandler
@@ -183,6 +184,7 @@ class Nodes(OpenedTogether):
         await keeper.note_asked(())
         ground, maps = self._language.ground, self.sites.by_robot
         await enter(RuleNode(transport, keeper, self.rules, clock, ground=ground, maps=maps))
+        await enter(Places(transport, maps, self.rules, clock, config.places_file))
         planner.offer_again()
 
     async def _open_talk(self, stack: AsyncExitStack, rules: RuleTalk | None) -> IncidentStore | None:

@@ -60,6 +60,10 @@ BODIES: dict[tuple[str, str], list[tuple[Any, Effect]]] = {
         ({"id": "r1", "name": "hall", "kind": "keep_out", "rectangle": [0, 0, 1, 1]}, Effect.RULE)
     ],
     ("POST", "/api/rules/try"): [({"robot": "Ada", "goal": [1.0, 1.0]}, Effect.SEE)],
+    ("POST", "/api/map/{robot}/places"): [
+        ({"put": {"name": "hall", "corners": [[0, 0], [1, 0], [1, 1]]}}, Effect.MAP)
+    ],
+    ("PUT", "/api/map/{robot}/file"): [({"classes": [], "items": {}}, Effect.MAP)],
     ("PUT", "/api/me/password"): [({"old": "wrong", "new": PASSWORD}, Effect.SEE)],
     ("POST", "/api/me/passkeys"): [({"id": "x", "name": "key", "credential": {}}, Effect.SEE)],
     ("POST", "/api/people"): [({"name": "new", "password": "short"}, Effect.PEOPLE)],

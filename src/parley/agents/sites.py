@@ -5,27 +5,31 @@ from __future__ import annotations
 import asyncio
 import contextlib
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import ClassVar, Final
 
 from parley.agents.base import Node
-from parley.errors import InvalidMessageError
+from parley.errors import FileFormatError, InvalidMessageError
 from parley.messages import topics
+from parley.messages.map import PlacesKept
 from parley.messages.robot import RobotSite
 from parley.messages.ros import String
 from parley.messages.status import ActorStatus
 from parley.messages.wire import decode
 from parley.transport.base import Transport
 from parley.world.object_map import MapArea, MapObject
+from parley.world.placed import Placed
 from parley.world.telling import Surroundings, surroundings_of
 
 __all__ = ["Sites"]
 
 NOWHERE: Final = Surroundings()
 SOON_S: Final = 3.0
+_NOTHING: Final = Placed()
 
 
 class Sites(Node):
-    """The newest that each robot told.
+    """The newest that each robot told, with what people put on its map.
 
     Args:
         transport: Where the topics are.
@@ -38,6 +42,8 @@ class Sites(Node):
         super().__init__(transport)
         self._told = told
         self._asked: set[str] = set()
+        self._heard: dict[str, Surroundings] = {}
+        self._placed: dict[str, Placed] = {}
         self._changed = asyncio.Event()
         self.by_robot: dict[str, Surroundings] = {}
         """What is known, by robot."""
@@ -45,6 +51,7 @@ class Sites(Node):
     async def open(self) -> None:
         """See `Node.open`."""
         await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._on_status)
+        await self.subscribe(topics.PLACES_KEPT, PlacesKept, self._on_places)
 
     def objects(self, robot: str) -> Sequence[MapObject]:
         """What people may name to a robot."""
@@ -87,7 +94,23 @@ class Sites(Node):
         except InvalidMessageError as error:
             self.refuse("parley_site", error)
             return
-        self.by_robot[site.actor] = known
-        self._told(site.actor, known)
+        self._heard[site.actor] = known
+        self._know(site.actor)
         changed, self._changed = self._changed, asyncio.Event()
         changed.set()
+
+    def _on_places(self, kept: PlacesKept) -> None:
+        """An engine tells the same in a moment; who spoke is understood by it at once."""
+        try:
+            self._placed = {name: Placed.of_json(told) for name, told in kept.maps.items()}
+        except FileFormatError as error:
+            self.log.warning("unreadable places", error=str(error))
+            return
+        for robot in self._heard:
+            self._know(robot)
+
+    def _know(self, robot: str) -> None:
+        heard = self._heard[robot]
+        placed = self._placed.get(heard.occupancy.name, _NOTHING)
+        self.by_robot[robot] = known = replace(heard, objects=placed.applied(heard.objects))
+        self._told(robot, known)

@@ -7,8 +7,6 @@ other rules stays as people wrote it, with their comments.
 from __future__ import annotations
 
 import asyncio
-import os
-import tempfile
 import textwrap
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -20,7 +18,7 @@ import structlog
 import yaml
 
 from parley.errors import ConfigError
-from parley.files import read_text, validated_yaml
+from parley.files import read_text, replace_text, validated_yaml
 from parley.gate.book import RuleBook
 from parley.messages.principal import Principal
 from parley.messages.rules import Rule, RuleSet
@@ -218,13 +216,6 @@ def _write(path: Path, before: str, text: str) -> None:
         now = path.read_text(encoding="utf-8") if path.exists() else ""
         if now != before:
             raise ConfigError(f"{path.name} was changed by somebody else meanwhile: restart to read it")
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile(
-            "w", encoding="utf-8", newline="", dir=path.parent, prefix=path.name, delete=False
-        ) as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(file.name, path)  # noqa: PTH105 - the temporary file has only a name
+        replace_text(path, text)
     except (OSError, UnicodeDecodeError) as error:
         raise ConfigError(f"{path.name} cannot be written: {error}") from error

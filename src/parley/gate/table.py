@@ -45,6 +45,8 @@ class Effect(StrEnum):
     """Remove a memory."""
     RULE = "rule"
     """Make, change or lift a rule."""
+    MAP = "map"
+    """Put rooms and things on the map, change them, take them off."""
     POLICY = "policy"
     """Choose which plans wait for a yes."""
     SETTING = "setting"
@@ -91,6 +93,7 @@ _ROWS: Final[dict[Effect, tuple[Verdict, ...]]] = {
     Effect.REMEMBER: (_R,   _A,  _A,  _A,  _R,  _R,  _A,   _A,  _A),
     Effect.FORGET:   (_R,   _A,  _A,  _Y,  _R,  _R,  _A,   _R,  _R),
     Effect.RULE:     (_R,   _A,  _A,  _Y,  _R,  _R,  _R,   _R,  _R),
+    Effect.MAP:      (_R,   _R,  _A,  _R,  _R,  _R,  _R,   _R,  _R),
     Effect.POLICY:   (_R,   _A,  _A,  _R,  _R,  _R,  _R,   _R,  _R),
     Effect.SETTING:  (_R,   _R,  _A,  _R,  _R,  _R,  _R,   _R,  _R),
     Effect.PEOPLE:   (_R,   _R,  _A,  _R,  _R,  _R,  _R,   _R,  _R),

@@ -1,13 +1,17 @@
-"""What a map on a screen needs: the map itself (a service), and what moves on it (a topic). Ours."""
+"""What a map on a screen needs: the map itself, what people put on it, and what moves on it. Ours."""
 
 from __future__ import annotations
+
+from typing import Any, Literal
 
 from pydantic import Field
 
 from parley.messages.base import Payload
+from parley.messages.principal import Principal
 from parley.messages.status import PoseInfo
+from parley.sentences import SpokenLanguage
 
-__all__ = ["GetMap", "MapInfo", "MapRoom", "MapThing", "MapView"]
+__all__ = ["GetMap", "MapInfo", "MapRoom", "MapThing", "MapView", "PlaceChange", "PlaceChanged", "PlacesKept"]
 
 Point = tuple[float, float]
 """x, y in the map frame, metres."""
@@ -26,6 +30,13 @@ class MapThing(Payload):
     """Along x, metres."""
     height: float = 0.0
     """Along y, metres."""
+    aliases: tuple[str, ...] = ()
+    front: float | None = None
+    """Which way its usable side faces, radians in the map frame."""
+    stand: PoseInfo | None = None
+    """Where a robot stands for it, and which way it looks; None: that is worked out."""
+    found: bool = False
+    """Whether a robot saw it there, and nobody put it on the map."""
 
 
 class MapRoom(Payload):
@@ -65,6 +76,8 @@ class MapView(Payload):
     actor: str
     map_name: str = ""
     pose: PoseInfo
+    places: str = ""
+    """Another one than before: rooms or things changed, ask for the map again."""
     room: str = ""
     """The part of the map with a name that it is in; empty: none."""
     holds: str = ""
@@ -75,3 +88,48 @@ class MapView(Payload):
     scan: tuple[Point, ...] = ()
     """Where the newest lidar sweep hit something; empty without a lidar."""
     unix_ms: int = 0
+
+
+class PlaceChange(Payload):
+    """Request of `/parley/places`: one room or thing that a person puts on the map, changes or takes off."""
+
+    what: Literal["change", "try", "whole", "load"] = "change"
+    """`try`: only tell what would come of it; `whole`: give the object map; `load`: take over `whole`."""
+    robot: str
+    """Whose map it is."""
+    was: MapRoom | MapThing | None = None
+    """As it was shown to who changes it; None: it is new. Without `put` it is taken off the map."""
+    put: MapRoom | MapThing | None = None
+    """As it is to be; a thing with an empty id gets one."""
+    anyway: bool = False
+    """Whether it may have the name of another one."""
+    whole: dict[str, Any] | None = None
+    """For `load`: an object map."""
+    words: str = ""
+    """What the person said, if it was told."""
+    by: Principal | None = None
+    language: SpokenLanguage = "en"
+    """Of what is told in words."""
+
+
+class PlaceChanged(Payload):
+    """Response of `/parley/places`."""
+
+    put: MapRoom | MapThing | None = None
+    """As it stands on the map now, or with `try` would."""
+    same: tuple[MapRoom | MapThing, ...] = ()
+    """What has that name already: nothing was done, who changes it has to say which is meant."""
+    notes: tuple[str, ...] = ()
+    """What people should know about it: that no robot gets there, or may go there."""
+    problem: str = ""
+    """Why nothing was done, in plain words; empty if it was."""
+    whole: dict[str, Any] | None = None
+    """For `whole`: the object map, in the thesis's form."""
+
+
+class PlacesKept(Payload):
+    """`/parley/places_kept`, latched: what people changed on all maps."""
+
+    maps: dict[str, dict[str, Any]] = Field(default_factory=dict)
+    """Name of a map -> an object map of what they put there, with what they took off; see
+    `parley.world.placed`."""

@@ -101,6 +101,7 @@ MAP_VIEW = _string("/parley/map_view", depth=10)
 AUDIT = _string("/parley/audit", depth=10_000)
 ATTENDANCE = _string("/parley/attendance", latched=True)
 RULES_IN_FORCE = _string("/parley/rules_in_force", latched=True, depth=1)
+PLACES_KEPT = _string("/parley/places_kept", latched=True, depth=1)
 MISSIONS = _string("/parley/missions", latched=True, depth=1)
 NOTICE = _string("/parley/notice")
 
@@ -111,6 +112,7 @@ GET_INCIDENTS = Service(
 GET_AUDIT = Service("/parley/get_audit", ros.ChatRequest, ros.ChatResponse, "nl_interface_msgs/srv/Chat")
 GET_MAP = Service("/parley/get_map", ros.ChatRequest, ros.ChatResponse, "nl_interface_msgs/srv/Chat")
 RULES = Service("/parley/rules", ros.ChatRequest, ros.ChatResponse, "nl_interface_msgs/srv/Chat")
+PLACES = Service("/parley/places", ros.ChatRequest, ros.ChatResponse, "nl_interface_msgs/srv/Chat")
 GRAPH_GET = Service(
     "umrf_graph_get", ros.UmrfGraphGetRequest, ros.UmrfGraphGetResponse, "temoto_msgs/srv/UmrfGraphGet"
 )
@@ -120,9 +122,9 @@ ALL_TOPICS: tuple[Topic[Any], ...] = (
     DISPLAY_FEED, GRAPH_START, GRAPH_MODIFY, GRAPH_PAUSE, GRAPH_PAUSE_TEMOTO, GRAPH_RESUME, GRAPH_STOP,
     GRAPH_FEEDBACK, ACTOR_STATUS, GRAPH_EVENTS, PLAN, PLAN_DECISION, STEP, STOP, STOP_REPORT, REJECTION, SYNC,
     MEMORY_EVENT, REPLY_DRAFT, INCIDENT, MAP_VIEW, AUDIT, RULING, ATTENDANCE,
-    RULES_IN_FORCE, MISSIONS, NOTICE,
+    RULES_IN_FORCE, PLACES_KEPT, MISSIONS, NOTICE,
 )  # fmt: skip
-ALL_SERVICES = (GET_MEMORY, GRAPH_GET, GET_INCIDENTS, GET_MAP, GET_AUDIT, RULES)
+ALL_SERVICES = (GET_MEMORY, GRAPH_GET, GET_INCIDENTS, GET_MAP, GET_AUDIT, RULES, PLACES)
 
 
 def display_topic(target: str, name: str) -> Topic[ros.CompressedImage]:

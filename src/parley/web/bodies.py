@@ -8,6 +8,7 @@ from pydantic import Field, StringConstraints, model_validator
 
 from parley.messages.attendance import Unattended
 from parley.messages.chat import ActionCall
+from parley.messages.map import MapRoom, MapThing
 from parley.messages.principal import Role
 from parley.sentences import SpokenLanguage
 from parley.web.models import ChatEntry, Policy, WebModel
@@ -303,6 +304,20 @@ class RuleTryPost(WebModel):
     goal: tuple[float, float] | None = None
     """x, y on the map, metres."""
     words: Annotated[tuple[Annotated[str, StringConstraints(max_length=300)], ...], Field(max_length=20)] = ()
+    language: SpokenLanguage = "en"
+
+
+class PlacePost(WebModel):
+    """One room or thing of a map: as it was shown, and as it is to be."""
+
+    was: MapRoom | MapThing | None = None
+    """None: it is new."""
+    put: MapRoom | MapThing | None = None
+    """None: it is taken off the map."""
+    anyway: bool = False
+    """Whether it may have the name of another one."""
+    only_try: bool = False
+    """Tell what would come of it, and change nothing."""
     language: SpokenLanguage = "en"
 
 

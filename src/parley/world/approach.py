@@ -55,7 +55,8 @@ def approach_pose(
 
     Args:
         occupancy: The map. With `NO_MAP` whoever drives has to find out what is free.
-        target: The object; with `front_rad`, only spots on that side count. Of a room: a spot in it.
+        target: The object; with `front_rad`, only spots on that side count. With `stand`, that one, as long
+            as it can be reached and nobody else is there. Of a room: a spot in it.
         start: Where the robot is; of equally good spots it gets the one with the shorter way.
         radius_m: Of the robot.
         standoff_m: Wished distance between the robot's edge and the object's bounding box.
@@ -66,7 +67,7 @@ def approach_pose(
     """
     wished_m = radius_m + standoff_m
     if occupancy is NO_MAP:
-        return _before(target, start, wished_m)
+        return target.stand or _before(target, start, wished_m)
     radius_m += _MARGIN_M
     clearance = clearance_m(occupancy)
     allowed = passable(occupancy, clearance, start, radius_m)
@@ -75,10 +76,12 @@ def approach_pose(
         return None
     allowed[row, column] = True
     near = _near(occupancy, target, allowed, 0.0 if target.area else wished_m + _FARTHER_M)
-    if len(near.cells) == 0:
+    if len(near.cells) == 0 and target.stand is None:
         return None
     near = _clear_of(taken, near, radius_m)
     way, _ = grids.MCP_Geometric(travel_costs(allowed, clearance, radius_m)).find_costs([(row, column)])
+    if target.stand is not None and _is_free(target.stand, occupancy, way, taken, radius_m):
+        return target.stand
     if target.area is not None:
         return _inside(near, target.area, target, start, np.isfinite(way[tuple(near.cells.T)]))
     score = (
@@ -93,6 +96,15 @@ def approach_pose(
         if _in_view(occupancy, spot, target):
             return Pose2D(spot.x_m, spot.y_m, spot.bearing_to(target.x_m, target.y_m))
     return None
+
+
+def _is_free(
+    stand: Pose2D, occupancy: OccupancyMap, way: Floats, taken: Sequence[Spot], radius_m: float
+) -> bool:
+    """Whether a robot gets to where it is to stand, and nobody else is there."""
+    cell = occupancy.cell_of(stand.x_m, stand.y_m)
+    others = (math.hypot(stand.x_m - x, stand.y_m - y) > radius_m + r + _BETWEEN_M for x, y, r in taken)
+    return occupancy.contains(*cell) and bool(np.isfinite(way[cell])) and all(others)
 
 
 def _clear_of(taken: Sequence[Spot], near: _Candidates, radius_m: float) -> _Candidates:

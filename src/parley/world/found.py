@@ -6,13 +6,16 @@ import asyncio
 import json
 import re
 from dataclasses import replace
+from itertools import count
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import structlog
 
 from parley.errors import FileFormatError
+from parley.files import parse_json, read_text, replace_text
 from parley.world.object_map import MapObject, ObjectMap
+from parley.world.placed import new_id
 from parley.world.whereabouts import Footprint, nearest, standing
 
 __all__ = ["FoundThings"]
@@ -34,19 +37,27 @@ class FoundThings:
     def __init__(self, file: Path | None = None) -> None:
         self._file = file
         self._things: tuple[MapObject, ...] = ()
+        self._knew: dict[str, Any] = {}
+        """Where the map had each of them when it was found; None: nowhere. What people say later counts."""
         if file is not None and file.is_file():
             try:
-                self._things = tuple(replace(item, found=True) for item in ObjectMap.load(file).objects)
-            except FileFormatError as error:  # what was found can be found again
+                told = parse_json(read_text(file), file.name)
+                self._things = tuple(replace(item, found=True) for item in ObjectMap.of_json(told).objects)
+                self._knew = dict(told.get("knew", {}))
+            except (FileFormatError, TypeError, ValueError) as error:  # what was found can be found again
                 log.warning("what was found before cannot be read", error=str(error))
 
     def added_to(self, known: ObjectMap) -> ObjectMap:
         """The map with what was found; what was moved stands where it was seen last."""
         if not self._things:
             return known
-        moved = {thing.id: thing for thing in self._things}
+        moved = {thing.id: thing for thing in self._things if self._holds(thing, known)}
         kept = tuple(moved.pop(item.id, item) for item in known.objects)
         return replace(known, objects=(*kept, *moved.values()))
+
+    def _holds(self, thing: MapObject, known: ObjectMap) -> bool:
+        """Whether the map is still as it was when this was found."""
+        return thing.id not in self._knew or self._knew[thing.id] == _at_home(known.get(thing.id))
 
     async def forget(self, thing: MapObject) -> None:
         """Something that was found is not there any more."""
@@ -71,12 +82,20 @@ class FoundThings:
         else:
             found = _at(_new(label, place, now), place)
         self._things = (*(item for item in self._things if item.id != found.id), found)
+        self._knew[found.id] = _at_home(known.get(found.id))
         await self._keep()
         return found
 
     async def _keep(self) -> None:
         if self._file is not None:
-            await asyncio.to_thread(_write, self._file, ObjectMap(self._things))
+            knew = {item.id: self._knew.get(item.id) for item in self._things if item.id in self._knew}
+            told = ObjectMap(self._things).to_json() | {"knew": knew}
+            await asyncio.to_thread(_write, self._file, json.dumps(told, ensure_ascii=False) + "\n")
+
+
+def _at_home(item: MapObject | None) -> list[float] | None:
+    """Where the map has something."""
+    return [item.x_m, item.y_m] if item is not None else None
 
 
 def _apart_m(item: MapObject, place: Footprint) -> float:
@@ -88,7 +107,7 @@ def _at(item: MapObject, place: Footprint) -> MapObject:
     width, height = max(place.width_m, _SMALLEST_M), max(place.height_m, _SMALLEST_M)
     return replace(
         item, x_m=round(place.x_m, 3), y_m=round(place.y_m, 3), width_m=round(width, 3),
-        height_m=round(height, 3), front_rad=None,
+        height_m=round(height, 3), front_rad=None, stand=None,
         found=True,
     )  # fmt: skip
 
@@ -96,22 +115,17 @@ def _at(item: MapObject, place: Footprint) -> MapObject:
 def _new(label: str, place: Footprint, known: ObjectMap) -> MapObject:
     """A thing with a name of its own: the label, or where that is taken, with where it stands."""
     words = re.findall(r"\w+", label.lower()) or ["thing"]
-    stem, number = "_".join(words), 1
-    while known.get(f"{stem}_{number}") is not None:
-        number += 1
     by = nearest(place.x_m, place.y_m, known.objects)
     taken = {item.description.lower() for item in known.objects}
     name = f"{label} by {by.description}" if label.lower() in taken and by is not None else label
     if name.lower() in taken:
-        name = f"{label} {number}"
-    return MapObject(f"{stem}_{number}", name, place.x_m, place.y_m, class_name=words[-1])
+        name = next(name for n in count(2) if (name := f"{label} {n}").lower() not in taken)
+    return MapObject(new_id(label, known.objects), name, place.x_m, place.y_m, class_name=words[-1])
 
 
-def _write(file: Path, things: ObjectMap) -> None:
-    """Keep them; where that fails they are known until the program ends."""
-    draft = file.with_suffix(".new")
+def _write(file: Path, text: str) -> None:
+    """Keep it; where that fails it is known until the program ends."""
     try:
-        draft.write_text(json.dumps(things.to_json(), ensure_ascii=False) + "\n", encoding="utf-8")
-        draft.replace(file)
+        replace_text(file, text)
     except OSError as error:
         log.warning("what was found cannot be kept", error=str(error))

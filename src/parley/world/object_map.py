@@ -8,8 +8,9 @@
 
 `dimensions` are the bounding box in the map plane: `width` along x, `height` along y, in metres.
 Ours, optional: `aliases` (other names people use for it) and `front` (the direction its open or usable side
-faces, radians in the map frame: stand there to use it); beside `items`, `areas`: rooms and the like, each
-with a `name` and its `corners`, for people to see on the map and to send robots to.
+faces, radians in the map frame: stand there to use it) or `stand` (`x`, `y`, `yaw`: where exactly a robot
+stands for it, and which way it looks); beside `items`, `areas`: rooms and the like, each with a `name` and
+its `corners`, for people to see on the map and to send robots to.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from parley.errors import FileFormatError
 from parley.files import TextFile, parse_json, validated
-from parley.world.geometry import Extent, Metres
+from parley.world.geometry import Extent, Metres, Pose2D
 
 __all__ = ["MapArea", "MapObject", "ObjectMap"]
 
@@ -45,6 +46,8 @@ class MapObject:
     aliases: tuple[str, ...] = ()
     front_rad: float | None = None
     """Map-frame direction its usable side faces; None: it can be used from anywhere."""
+    stand: Pose2D | None = None
+    """Where a robot stands for it, and which way it looks; None: that is worked out."""
     area: MapArea | None = None
     """A room as a goal: one stands in it, not before it."""
     found: bool = False
@@ -96,6 +99,13 @@ class _Dimensions(BaseModel):
     width: Extent
 
 
+class _Stand(BaseModel):
+    model_config = ConfigDict(extra="ignore", allow_inf_nan=False)
+    x: Metres
+    y: Metres
+    yaw: float = 0.0
+
+
 class _Item(BaseModel):
     model_config = ConfigDict(extra="ignore", allow_inf_nan=False)
     id: str = Field(min_length=1, coerce_numbers_to_str=True)
@@ -104,6 +114,7 @@ class _Item(BaseModel):
     dimensions: _Dimensions
     aliases: list[str] = Field(default_factory=list)
     front: float | None = Field(default=None)
+    stand: _Stand | None = None
 
 
 class _Area(BaseModel):
@@ -152,7 +163,16 @@ class ObjectMap(TextFile):
         Raises:
             FileFormatError: Names the file and the field.
         """
-        parsed = validated(_File, parse_json(text, file), file)
+        return cls.of_json(parse_json(text, file), file)
+
+    @classmethod
+    def of_json(cls, told: Any, file: str = "object map") -> Self:
+        """The object map of a JSON value; `file` is only for messages.
+
+        Raises:
+            FileFormatError: Names the file and the field.
+        """
+        parsed = validated(_File, told, file)
         areas = (MapArea(area.name, tuple(area.corners)) for area in parsed.areas)
         return cls(tuple(_objects(parsed, file)), tuple(areas))
 
@@ -170,6 +190,8 @@ class ObjectMap(TextFile):
                 body["aliases"] = list(item.aliases)
             if item.front_rad is not None:
                 body["front"] = item.front_rad
+            if item.stand is not None:
+                body["stand"] = {"x": item.stand.x_m, "y": item.stand.y_m, "yaw": item.stand.yaw_rad}
             items.setdefault(item.class_name, []).append(body)
         areas = [
             {"name": area.name, "corners": [list(corner) for corner in area.corners]} for area in self.areas
@@ -196,6 +218,7 @@ def _objects(parsed: _File, file: str) -> list[MapObject]:
                     height_m=item.dimensions.height,
                     aliases=tuple(item.aliases),
                     front_rad=item.front,
+                    stand=Pose2D(item.stand.x, item.stand.y, item.stand.yaw) if item.stand else None,
                 )
             )
     return found

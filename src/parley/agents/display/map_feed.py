@@ -6,7 +6,9 @@ import asyncio
 import base64
 import io
 import math
-from collections.abc import Iterable, Sequence
+import zlib
+from collections.abc import Callable, Sequence
+from functools import lru_cache
 from typing import ClassVar, Final
 
 from PIL import Image
@@ -23,7 +25,7 @@ from parley.messages.status import PoseInfo
 from parley.messages.topics import display_topic
 from parley.robots.base import Robot
 from parley.transport.base import Transport
-from parley.world.object_map import MapArea, MapObject
+from parley.world.object_map import MapObject, ObjectMap
 from parley.world.occupancy import OccupancyMap
 
 __all__ = ["FEED", "MapFeed", "MapViews"]
@@ -49,16 +51,21 @@ class MapViews(Node):
         robot: Whose view.
         map_name: Of the map it drives by.
         clock: For time stamps; the pace is wall time.
-        areas: The parts of that map that have names.
+        known: What is on that map now.
     """
 
     name: ClassVar[str] = "map_views"
 
     def __init__(
-        self, transport: Transport, robot: Robot, map_name: str, clock: Clock, areas: Sequence[MapArea] = ()
+        self,
+        transport: Transport,
+        robot: Robot,
+        map_name: str,
+        clock: Clock,
+        known: Callable[[], ObjectMap] = ObjectMap,
     ) -> None:
         super().__init__(transport)
-        self._robot, self._map_name, self._clock, self._areas = robot, map_name, clock, areas
+        self._robot, self._map_name, self._clock, self._known = robot, map_name, clock, known
 
     async def open(self) -> None:
         """See `Node.open`."""
@@ -69,8 +76,9 @@ class MapViews(Node):
         told, quiet_s = None, 0.0
         while True:
             await watched.wait()
-            view = _known(self._robot, self._map_name, self._clock.unix_ms(), self._areas)
-            where = (view.pose, view.path, view.holds) if view is not None else told
+            known = self._known()
+            view = _seen(self._robot, self._map_name, self._clock.unix_ms(), known)
+            where = (view.pose, view.path, view.holds, view.places) if view is not None else told
             if view is not None and (where != told or quiet_s >= RESTING_INTERVAL_S):
                 told, quiet_s = where, 0.0
                 self.publish(topics.MAP_VIEW, view)
@@ -86,7 +94,7 @@ class MapFeed(Node):
         transport: Where the topics are.
         robot: Who is drawn.
         occupancy: The map it drives by.
-        objects: What stands where.
+        objects: What stands where now.
         clock: For time stamps; the pace is wall time.
     """
 
@@ -97,7 +105,7 @@ class MapFeed(Node):
         transport: Transport,
         robot: Robot,
         occupancy: OccupancyMap,
-        objects: Iterable[MapObject],
+        objects: Callable[[], Sequence[MapObject]],
         clock: Clock,
     ) -> None:
         super().__init__(transport)
@@ -111,13 +119,17 @@ class MapFeed(Node):
         self.spawn(self._run(watched), name=self._robot.name)
 
     async def _run(self, watched: Watched) -> None:
-        await watched.wait()
-        picture = await asyncio.to_thread(
-            MapPicture, self._map, self._objects, robot_radius_m=self._robot.radius_m
-        )
+        drawn, picture = None, None
         while True:
             await watched.wait()
-            view = _known(self._robot, self._map.name, self._clock.unix_ms())
+            if (objects := self._objects()) != drawn or picture is None:
+                drawn, picture = (
+                    objects,
+                    await asyncio.to_thread(
+                        MapPicture, self._map, objects, robot_radius_m=self._robot.radius_m
+                    ),
+                )
+            view = _seen(self._robot, self._map.name, self._clock.unix_ms())
             if view is not None:
                 image = await asyncio.to_thread(_png, picture, view)
                 feed = DisplayFeed(target=self._robot.name, name=FEED, image=image)
@@ -125,25 +137,34 @@ class MapFeed(Node):
             await asyncio.sleep(PICTURE_INTERVAL_S)
 
 
-def _known(robot: Robot, map_name: str, unix_ms: int, areas: Sequence[MapArea] = ()) -> MapView | None:
+_NOTHING: Final = ObjectMap()
+
+
+def _seen(robot: Robot, map_name: str, unix_ms: int, known: ObjectMap = _NOTHING) -> MapView | None:
     """The same, or None while the robot does not know where it is."""
     try:
-        return view_of(robot, map_name, unix_ms, areas)
+        return view_of(robot, map_name, unix_ms, known)
     except ActionFailure:
         return None
 
 
-def view_of(robot: Robot, map_name: str, unix_ms: int, areas: Sequence[MapArea] = ()) -> MapView:
+def view_of(robot: Robot, map_name: str, unix_ms: int, known: ObjectMap = _NOTHING) -> MapView:
     """What a map on a screen shows of a robot now; without lidar there is no sweep."""
     pose, way = robot.pose(), robot.planned_path()
     here = PoseInfo(x=round(pose.x_m, 3), y=round(pose.y_m, 3), yaw=round(pose.yaw_rad, 3))
     goal = PoseInfo(x=way[-1][0], y=way[-1][1]) if way else None
-    room = next((area.name for area in areas if area.holds(here.x, here.y)), "")
+    room = next((area.name for area in known.areas if area.holds(here.x, here.y)), "")
     holds = robot.arm.holds if robot.arm is not None else ""
     return MapView(
-        actor=robot.name, map_name=map_name, pose=here, room=room, holds=holds, path=_thinned(way), goal=goal,
-        scan=_scan(robot), unix_ms=unix_ms,
+        actor=robot.name, map_name=map_name, pose=here, places=_mark(known), room=room, holds=holds,
+        path=_thinned(way), goal=goal, scan=_scan(robot), unix_ms=unix_ms,
     )  # fmt: skip
+
+
+@lru_cache(maxsize=8)
+def _mark(known: ObjectMap) -> str:
+    """Short, and another one for other rooms and things."""
+    return f"{zlib.crc32(repr(known).encode()):08x}"
 
 
 def _scan(robot: Robot) -> tuple[Point, ...]:

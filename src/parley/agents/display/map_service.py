@@ -18,10 +18,10 @@ from parley.messages.ros import ChatRequest, ChatResponse
 from parley.messages.status import PoseInfo
 from parley.messages.wire import decode, encode
 from parley.transport.base import Transport
-from parley.world.object_map import ObjectMap
+from parley.world.object_map import MapArea, MapObject, ObjectMap
 from parley.world.occupancy import OccupancyMap
 
-__all__ = ["MapService", "map_info"]
+__all__ = ["MapService", "map_info", "room_of", "thing_of"]
 
 
 class KnownMap(Protocol):
@@ -84,17 +84,29 @@ def map_info(robot: str, occupancy: OccupancyMap, objects: ObjectMap) -> MapInfo
         height=rows,
         origin=PoseInfo(x=occupancy.origin_x_m, y=occupancy.origin_y_m),
         image=base64.b64encode(buffer.getvalue()).decode("ascii"),
-        objects=tuple(
-            MapThing(
-                id=item.id,
-                kind=item.class_name,
-                description=item.description,
-                x=item.x_m,
-                y=item.y_m,
-                width=item.width_m,
-                height=item.height_m,
-            )
-            for item in objects.objects
-        ),
-        rooms=tuple(MapRoom(name=area.name, corners=area.corners) for area in objects.areas),
+        objects=tuple(map(thing_of, objects.objects)),
+        rooms=tuple(map(room_of, objects.areas)),
     )
+
+
+def thing_of(item: MapObject) -> MapThing:
+    """The message about one thing."""
+    stand = item.stand
+    return MapThing(
+        id=item.id,
+        kind=item.class_name,
+        description=item.description,
+        x=item.x_m,
+        y=item.y_m,
+        width=item.width_m,
+        height=item.height_m,
+        aliases=item.aliases,
+        front=item.front_rad,
+        stand=PoseInfo(x=stand.x_m, y=stand.y_m, yaw=stand.yaw_rad) if stand is not None else None,
+        found=item.found,
+    )
+
+
+def room_of(area: MapArea) -> MapRoom:
+    """The message about one room."""
+    return MapRoom(name=area.name, corners=area.corners)

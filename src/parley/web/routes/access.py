@@ -45,6 +45,7 @@ _WORDS: Final[dict[Effect, str]] = {
     Effect.PEOPLE: "manage people",
     Effect.AUDIT: "read who did what",
     Effect.RULE: "change rules",
+    Effect.MAP: "put names on the map",
 }
 
 
