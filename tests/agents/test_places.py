@@ -147,7 +147,12 @@ async def test_only_supervisors_change_the_map(by: Principal | None) -> None:
 
 @pytest.mark.parametrize(
     ("name", "why"),
-    [("", "1 to 80"), ("stop", "keeps its meaning"), ("a", "“a” calls a robot"), ("x" * 81, "1 to 80")],
+    [
+        ("", "1 to 80"),
+        ("stop", "keeps its meaning"),
+        ("robot A", "“robot A” calls a robot"),
+        ("x" * 81, "1 to 80"),
+    ],
 )
 async def test_a_name_that_would_mean_two_things_is_refused(name: str, why: str) -> None:
     async with crew() as it:

@@ -249,7 +249,8 @@ def _problem(place: Place, robots: Sequence[str]) -> str:
         return sentence("A name has 1 to {most} letters.", most=_LONGEST)
     if (why := reserved(name)) is not None:
         return why
-    if key(name) in {robot.casefold() for robot in robots}:
+    called = {robot.casefold() for robot in robots} & {key(name), *key(name).split()}
+    if called:
         return sentence("“{words}” calls a robot, so it cannot mean anything else.", words=name)
     if isinstance(place, MapArea) and _area_m2(place) < _SMALLEST_ROOM_M2:
         return sentence("A room needs at least three corners that are not in one line.")

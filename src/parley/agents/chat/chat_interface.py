@@ -19,6 +19,7 @@ from parley.agents.chat.log_answers import log_answer
 from parley.agents.chat.memories import Confirmations
 from parley.agents.chat.mission_board import MissionBoard
 from parley.agents.chat.missions import Missions
+from parley.agents.chat.placing import Placing
 from parley.agents.chat.recollections import Recollections
 from parley.agents.chat.repeats import Repeats
 from parley.agents.chat.situations import Situations
@@ -128,6 +129,7 @@ class ChatInterface(Node):
         self._holds = Holds(lambda command: self.publish(topics.STOP, command))
         self._confirmations = Confirmations()
         self._recollections = Recollections(self, clock, self._remember, self._presence.names)
+        self._placing = Placing(self, self._known, self._presence)
         self._teaching = Teaching(self, language, self._known, self._remember)
         self._answering = Answering(
             self,
@@ -274,7 +276,8 @@ class ChatInterface(Node):
     ) -> bool:
         """Have a message understood; whether that is seen to for all of `team`."""
         about = said.reply_to or (question.id if question else "")
-        known = self._recollections.asked(about) or (self._rules is not None and self._rules.asked(about))
+        of_rules = self._rules is not None and self._rules.asked(about)
+        known = of_rules or self._recollections.asked(about) or self._placing.asked(about)
         ours = about if said.type == "response" and known else ""
         if question is None or ours:
             self._mailboxes.post(target, self._work(target, said, ours, team))
@@ -358,6 +361,8 @@ class ChatInterface(Node):
                 await self._soon(target)
             if await self._about_rules(target, said, ours):
                 return False
+            if await self._placing.handles(target, said, ours, team):
+                return True
             mine = ours if self._recollections.asked(ours) else ""
             together_done = False
             if not mine and (answer := await log_answer(self.transport, self._clock, target, said)):

@@ -60,7 +60,7 @@ class Situations:
     ) -> None:
         self._transport, self._presence, self.objects = transport, presence, objects
         self._history_exchanges, self._clock = history_exchanges, clock
-        self._rooms = rooms
+        self.rooms = rooms
         self.plans: dict[str, PlanUpdate] = {}
         self._catalogues: dict[str, Sequence[ActionInfo]] = {}
         self.questions = OpenQuestions()
@@ -193,7 +193,7 @@ class Situations:
             steps=pending_ids(plan) if plan else (),
             status=_STATUS.get(self.state(target), "idle"),
             objects=objects,
-            rooms=tuple(self._rooms(target)),
+            rooms=tuple(self.rooms(target)),
             robot_pose=_pose(status),
             robot=target,
             robots=self._presence.names(),
