@@ -220,8 +220,8 @@ export const mapInfo: MapInfo = {
   origin: { x: -2, y: -1, yaw: 0 },
   image: 'iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGP4DwABAQEAsTPyiAAAAABJRU5ErkJggg==',
   objects: [
-    { id: 'box_1', kind: 'box', description: 'red box', x: 3, y: 1, width: 1, height: 1 },
-    { id: 'door_1', kind: 'door', description: 'front door', x: 0, y: 3, width: 1, height: 0.2 },
+    { id: 'box_1', kind: 'box', description: 'red box', x: 3, y: 1, width: 1, height: 1, aliases: [], found: false },
+    { id: 'door_1', kind: 'door', description: 'front door', x: 0, y: 3, width: 1, height: 0.2, aliases: [], found: false },
   ],
   rooms: [{ name: 'hall', corners: [[-2, -1], [8, -1], [8, 4], [-2, 4]] }],
 };
@@ -230,6 +230,7 @@ export const mapView: MapView = {
   actor: 'Ada',
   map_name: 'hall',
   pose: { x: 1, y: 2, yaw: 0 },
+  places: '1f',
   room: 'hall',
   holds: '',
   path: [[3, 1]],

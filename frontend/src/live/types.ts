@@ -35,6 +35,8 @@ export type MapView = Schemas['MapView'];
 export type MapInfo = Schemas['MapInfo'];
 export type MapRoom = Schemas['MapRoom'];
 export type MapThing = Schemas['MapThing'];
+export type PlaceChanged = Schemas['PlaceChanged'];
+export type PlacePost = Schemas['PlacePost'];
 export type AbilityView = Schemas['AbilityView'];
 
 export type SessionInfo = Schemas['SessionInfo'];

@@ -15,6 +15,7 @@ export type Effect =
   | 'forget'
   | 'policy'
   | 'rule'
+  | 'map'
   | 'setting'
   | 'people'
   | 'audit';

@@ -5,6 +5,7 @@ import { cornersOf, outline, type Corner } from '@/ui/corners';
 
 import css from './map.module.css';
 import { nameOf, type Candidates, type Mark } from './marks';
+import { PlaceMarks } from './place-marks';
 import type { Trails } from './use-trails';
 import type { Way as Trial } from './use-way';
 import { aside, bounds, boxOf, freeIn, middleOf, roomAt, roomForLabels, textsOf, toScreen, type Label, type Place, type Size, type Viewport } from './viewport';
@@ -73,6 +74,7 @@ export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, tr
             className={css.thing}
             data-marked={marked?.kind === 'thing' && thing === marked.thing}
             data-candidate={candidates.has(thing.id)}
+            data-found={thing.found}
             x={thing.x - thing.width / 2}
             y={thing.y - thing.height / 2}
             width={thing.width}
@@ -94,6 +96,7 @@ export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, tr
           <Way key={rover.name} rover={rover} showScan={showScan} />
         ))}
       </g>
+      <PlaceMarks things={map.objects} marked={marked?.kind === 'thing' ? marked.thing : null} view={view} size={size} />
       <Labels map={map} things={map.objects} rooms={map.rooms} candidates={candidates} rovers={rovers} view={view} size={size} robotPx={robotPx} />
       {rovers.map((rover) => {
         const at = toScreen(view, size, rover.pose);

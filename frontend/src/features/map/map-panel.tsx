@@ -23,6 +23,10 @@ import { candidatesOf, type Mark } from './marks';
 import { areaOfMark, roomOf, type Area } from './areas';
 import { DrawBar } from './draw-bar';
 import { PlaceBar } from './place-bar';
+import { drawn as drawnOn, shownOf, type Draft } from './place-draft';
+import { useEdits } from './place-edits';
+import { FoundOffer } from './found-offer';
+import { PlacesBar } from './places-bar';
 import { useTrails } from './use-trails';
 import { useProposedWay, useWayTo } from './use-way';
 
@@ -38,8 +42,11 @@ export function MapPanel() {
   const [asked, setAsked] = useState(0);
   const known = useWorld((world) => world.run !== '');
   const robot = names.includes(picked) ? picked : selected;
+  const [placing, setPlacing] = useState(false);
+  const edits = useEdits((done) => done.count);
   const mapName = useWorld((world) => world.views[robot]?.map_name ?? '');
-  const shown = useMap(robot, mapName, asked);
+  const places = useWorld((world) => world.views[robot]?.places ?? '');
+  const shown = useMap(robot, `${mapName}\n${places}`, asked + edits);
   const tools = (
     <>
       {names.length > 1 && (
@@ -51,6 +58,9 @@ export function MapPanel() {
           onChange={setPicked}
         />
       )}
+      <Button needs="map" tone="quiet" icon="edit" aria-pressed={placing} isDisabled={shown.state !== 'ready'} onPress={() => setPlacing(!placing)}>
+        {t('places.mode')}
+      </Button>
       <Button tone="quiet" icon="plan" aria-pressed={listed} isDisabled={shown.state !== 'ready'} onPress={() => setListed(!listed)}>
         {t('asList')}
       </Button>
@@ -61,7 +71,7 @@ export function MapPanel() {
       {robot === '' && (known ? <Empty title={t('noRobot')} /> : <Loading />)}
       {robot !== '' && shown.state !== 'ready' && <NotYet shown={shown} onRetry={() => setAsked(asked + 1)} />}
       {shown.state === 'ready' && (
-        <Ready key={mapName} map={shown.map} mapName={mapName} robot={robot} listed={listed}>
+        <Ready key={mapName} map={shown.map} mapName={mapName} robot={robot} listed={listed} placing={placing}>
           {shown.sinceUnixMs > 0 && <Old sinceUnixMs={shown.sinceUnixMs} />}
         </Ready>
       )}
@@ -94,10 +104,12 @@ interface ReadyProps {
   mapName: string;
   robot: string;
   listed: boolean;
+  /** Whether rooms and things are put on the map rather than robots sent there. */
+  placing: boolean;
   children: React.ReactNode;
 }
 
-function Ready({ map, mapName, robot, listed, children }: ReadyProps) {
+function Ready({ map, mapName, robot, listed, placing, children }: ReadyProps) {
   const { t } = useTranslation('map');
   const [marked, setMarked] = useState<Mark | null>(null);
   const way = useWayTo(robot, marked);
@@ -113,15 +125,22 @@ function Ready({ map, mapName, robot, listed, children }: ReadyProps) {
   const wished = useMemo(() => zonesOf(asked.flatMap((entry) => entry.rules), mapName), [asked, mapName]);
   const nameFor = (room: string) => (room ? t('partOf', { room }) : t('anArea'));
   const [area, setArea] = useState<Area | null>(null);
+  const [drafted, setDraft] = useState<Draft | null>(null);
+  const draft = placing ? drafted : null;
   const onDraw = (corners: readonly Corner[] | null) => setArea(corners && { corners, name: nameFor(roomOf(map, corners)) });
   const onRule = (mark: Mark) => setArea(areaOfMark(mark));
+  const onPlace = (corners: readonly Corner[] | null) => draft && corners && setDraft(drawnOn(draft, corners));
   const { corners: drawn = null } = area ?? {};
+  const shape = draft ? shownOf(draft) : placing ? null : drawn;
   return (
     <div className={css.layout}>
       {children}
-      <MapStage map={map} rovers={rovers} trails={trails} zones={zones} wished={wished} marked={marked} trials={trials} candidates={candidates} onMark={setMarked} drawn={drawn} onDraw={onDraw} />
+      <MapStage map={map} rovers={rovers} trails={trails} zones={zones} wished={wished} marked={marked} trials={trials} candidates={candidates} onMark={setMarked} drawn={shape} onDraw={placing ? onPlace : onDraw} canRule={!placing} />
       {listed && <MapList map={map} rovers={rovers} onMark={setMarked} />}
-      {area ? (
+      <FoundOffer map={map} />
+      {placing ? (
+        <PlacesBar map={map} marked={marked} draft={draft} onDraft={setDraft} onClear={() => setMarked(null)} />
+      ) : area ? (
         <DrawBar area={area} mapName={mapName} rules={rules} onDone={() => setArea(null)} />
       ) : (
         <PlaceBar robot={robot} marked={marked} way={way} question={question} candidates={candidates} rooms={map.rooms} onClear={() => setMarked(null)} onRule={onRule} />

@@ -29,13 +29,15 @@ interface Props {
   /** The corners of an area that is being drawn; null: none is. */
   drawn: readonly Corner[] | null;
   onDraw: (corners: readonly Corner[] | null) => void;
+  /** Whether areas for rules can be drawn. */
+  canRule: boolean;
 }
 
 const ZOOM_STEP = 1.4;
 const FINGER_PX = 14;
 
 /** The map to look at, move, zoom and point at. */
-export function MapStage({ map, rovers, trails, zones, wished, marked, trials, candidates, onMark, drawn, onDraw }: Props) {
+export function MapStage({ map, rovers, trails, zones, wished, marked, trials, candidates, onMark, drawn, onDraw, canRule }: Props) {
   const { t } = useTranslation('map');
   const [follow, setFollow] = useState(false);
   const [showScan, setShowScan] = useState(false);
@@ -89,7 +91,7 @@ export function MapStage({ map, rovers, trails, zones, wished, marked, trials, c
           }}
         />
         {chosen && <Switch icon="target" label={t('follow', { robot: chosen.name })} value={follow} onChange={setFollow} />}
-        <Draw drawing={drawing} onPress={() => onDraw(drawing ? null : [])} />
+        {canRule && <Draw drawing={drawing} onPress={() => onDraw(drawing ? null : [])} />}
         {senses && <Switch icon="rays" label={t('senses')} value={showScan} onChange={setShowScan} />}
       </div>
     </div>

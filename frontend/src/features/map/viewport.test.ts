@@ -52,7 +52,7 @@ describe('the part of a map on the screen', () => {
 
 describe('pointing at a map', () => {
   it('finds the smaller of two things that lie over each other', () => {
-    const small = { id: 's', kind: 'cup', description: '', x: 3, y: 1, width: 0.1, height: 0.1 };
+    const small = { id: 's', kind: 'cup', description: '', x: 3, y: 1, width: 0.1, height: 0.1, aliases: [], found: false };
     expect(thingAt([...mapInfo.objects, small], { x: 3, y: 1 }, 0)?.id).toBe('s');
   });
 
@@ -74,7 +74,7 @@ describe('labels on a map', () => {
 
   it('put the name of a room where no thing is', () => {
     const room = { name: 'hall', corners: [[0, 0], [8, 0], [8, 6], [0, 6]] as [number, number][] };
-    const thing = (x: number, y: number) => ({ ...mapInfo.objects[0], id: 'a', kind: 'box', description: '', x, y, width: 2, height: 1 });
+    const thing = (x: number, y: number) => ({ id: 'a', kind: 'box', description: '', x, y, width: 2, height: 1, aliases: [], found: false });
     expect(freeIn(room, [thing(1, 1)])[0]).toEqual({ x: 4, y: 3 });
     const beside = freeIn(room, [thing(4, 3)])[0];
     expect(Math.abs((beside?.y ?? 0) - 3)).toBeGreaterThan(0.6);

@@ -80,11 +80,16 @@ export function pan(view: Viewport, map: MapInfo, dx: number, dy: number): Viewp
 const DESCRIBING_SCALE = 60;
 const NAME_LETTERS = 14;
 
+/** Kind of what is nothing but a place with a name. */
+const NAMED = 'place';
+
 /** What a thing may be called on the map, the best first: its own name, or else what kind of thing it is. */
-export const textsOf = ({ description, kind }: MapThing, scale: number): readonly string[] =>
-  [description, kind]
-    .filter((name, index) => name && (index > 0 || !kind || scale >= DESCRIBING_SCALE || name.length <= NAME_LETTERS))
+export const textsOf = ({ description, kind }: MapThing, scale: number): readonly string[] => {
+  const sort = kind === NAMED ? '' : kind;
+  return [description, sort]
+    .filter((name, index) => name && (index > 0 || !sort || scale >= DESCRIBING_SCALE || name.length <= NAME_LETTERS))
     .map((name) => name.replaceAll('_', ' '));
+};
 
 /** Parts of a room's width and depth. */
 const PARTS = [0.5, 0.35, 0.65, 0.2, 0.8];

@@ -50,6 +50,6 @@ describe('corners', () => {
   });
 
   it('leave some room around a thing', () => {
-    expect(around({ id: 'b', kind: 'box', description: '', x: 1, y: 1, width: 1, height: 0.4 })).toEqual([[0.2, 0.5], [1.8, 1.5]]);
+    expect(around({ id: 'b', kind: 'box', description: '', x: 1, y: 1, width: 1, height: 0.4, aliases: [], found: false })).toEqual([[0.2, 0.5], [1.8, 1.5]]);
   });
 });
