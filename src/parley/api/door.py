@@ -7,7 +7,6 @@ about it as about what comes from the page: there is no way round it here.
 from __future__ import annotations
 
 import asyncio
-import importlib
 import uuid
 from collections.abc import AsyncIterator, Iterable, Mapping, Sequence
 from contextlib import AsyncExitStack, asynccontextmanager
@@ -16,11 +15,9 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Final, Literal, Self
 
-from parley.api.running import GraphRun, Page, about, graph_text
+from parley.api.running import GraphRun, Page, about, graph_text, served, why_not
 from parley.config import SystemConfig
 from parley.errors import ConfigError, NotAllowedError, ParleyError
-from parley.extras import needs
-from parley.gate.ruling import rule
 from parley.gate.table import Effect, verdict
 from parley.latest import Latest
 from parley.messages import topics
@@ -373,23 +370,11 @@ class Parley:
 
     def _judged(self, robot: str, who: Principal, actions: Sequence[str]) -> None:
         """Let the gate say whether somebody may begin with these actions."""
-        from parley.gate.risk import always_asks
-
-        plan, status = self.plan(robot), self._listener.statuses.get(robot)
-        infos = {info.name: info for info in status.catalogue} if status is not None else {}
-        config = self._opened.config
-        policy = plan.policy if robot in self._listener.plans else None
-        ruling = rule(
-            who,
-            policy or config.approval_of.get(robot, config.approval),
-            [ActionCall(name=action) for action in actions],
-            (),
-            needs_yes=plan.held_by is not None and plan.held_by.is_person and not who.is_person,
-            risky=any(always_asks(infos.get(action)) for action in actions),
-        )
-        if ruling.begins != "now":
+        config, told = self._opened.config, self._listener.plans.get(robot)
+        policy = (told.policy if told is not None else None) or config.approval_of.get(robot, config.approval)
+        why = why_not(who, actions, policy, self.plan(robot), self._listener.statuses.get(robot))
+        if why:
             self._tell(topics.AUDIT, AuditEvent(effect=Effect.BEGIN, by=who, robot=robot, outcome="refused"))
-            why = "needs a person's yes" if ruling.begins == "ask" else "is not theirs to start"
             raise NotAllowedError(f"a graph of {who} for {robot} {why}; say by=person(..)")
 
     # -- the page ----------------------------------------------------------------------------------------
@@ -408,20 +393,8 @@ class Parley:
             MissingExtraError: The page is not installed.
             ConfigError: The port is taken.
         """
-        await asyncio.to_thread(_load_web)  # takes a while, and robots stand while the loop is blocked
-        from parley.web.config import WebConfig
-        from parley.web.server import WebServer
-
-        system = self._opened
-        given = {"lan": lan} | ({} if port is None else {"port": port})
-        async with WebServer(
-            system.transport,
-            WebConfig.of(system.config, **given),
-            port_is_wish=port is None,
-            stop_line=system.stop_line,
-            at_rest=system.at_rest,
-        ) as server:
-            yield Page(server)
+        async with served(self._opened, port=port, lan=lan) as page:
+            yield page
 
     # -- inside ------------------------------------------------------------------------------------------
 
@@ -519,11 +492,6 @@ class Parley:
 
 def _new_id() -> str:
     return uuid.uuid4().hex
-
-
-def _load_web() -> None:
-    with needs("web"):
-        importlib.import_module("parley.web.server")
 
 
 def _system(*given: Any) -> System:

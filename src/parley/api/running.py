@@ -1,26 +1,32 @@
-"""What the door hands out while something runs: a graph, the page; and which robots an event is about."""
+"""What the door opens: a graph that runs, the page; who may start one; and which robots an event is about."""
 
 from __future__ import annotations
 
 import asyncio
+import importlib
 import json
-from collections.abc import Mapping
+from collections.abc import AsyncIterator, Mapping, Sequence
+from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Self
 
 from parley.errors import GraphRefusedError, Problem
+from parley.extras import needs
+from parley.gate.ruling import Policy, rule
 from parley.messages import topics
-from parley.messages.chat import ChatFeedback
+from parley.messages.chat import ActionCall, ChatFeedback
 from parley.messages.incident import Incident
 from parley.messages.memory import MemoryEvent
+from parley.messages.principal import Principal
 from parley.messages.ros import UmrfGraphPause, UmrfGraphStop
-from parley.messages.status import GraphEvent, PlanProposal, PlanUpdate, Rejection
+from parley.messages.status import ActorStatus, GraphEvent, PlanProposal, PlanUpdate, Rejection
 
 if TYPE_CHECKING:  # loaded when it is opened
     from parley.api.listening import Event, Listener
+    from parley.system import System
     from parley.web.server import WebServer
 
-__all__ = ["GraphRun", "Page", "about", "graph_text"]
+__all__ = ["GraphRun", "Page", "about", "graph_text", "served", "why_not"]
 
 _ENDED: Final = ("FINISHED", "STOPPED", "ERROR")
 
@@ -40,6 +46,57 @@ class Page:
     def code(self) -> str:
         """What the next device signs in with; empty where nobody has to."""
         return self._server.pairing_code
+
+
+@asynccontextmanager
+async def served(system: System, *, port: int | None, lan: bool) -> AsyncIterator[Page]:
+    """The page of a system that is open; see `Parley.page`."""
+    await asyncio.to_thread(_load_web)  # takes a while, and robots stand while the loop is blocked
+    from parley.web.config import WebConfig
+    from parley.web.server import WebServer
+
+    given = {"lan": lan} | ({} if port is None else {"port": port})
+    async with WebServer(
+        system.transport,
+        WebConfig.of(system.config, **given),
+        port_is_wish=port is None,
+        stop_line=system.stop_line,
+        at_rest=system.at_rest,
+    ) as server:
+        yield Page(server)
+
+
+def _load_web() -> None:
+    with needs("web"):
+        importlib.import_module("parley.web.server")
+
+
+def why_not(
+    who: Principal, actions: Sequence[str], policy: Policy, plan: PlanUpdate, status: ActorStatus | None
+) -> str:
+    """Why somebody may not begin with these actions, in words; empty if they may.
+
+    Args:
+        who: Who wants it.
+        actions: Their names.
+        policy: What the robot needs a yes for.
+        plan: What it does.
+        status: What it can do.
+    """
+    from parley.gate.risk import always_asks
+
+    infos = {info.name: info for info in status.catalogue} if status is not None else {}
+    ruling = rule(
+        who,
+        policy,
+        [ActionCall(name=action) for action in actions],
+        (),
+        needs_yes=plan.held_by is not None and plan.held_by.is_person and not who.is_person,
+        risky=any(always_asks(infos.get(action)) for action in actions),
+    )
+    if ruling.begins == "now":
+        return ""
+    return "needs a person's yes" if ruling.begins == "ask" else "is not theirs to start"
 
 
 class GraphRun:
