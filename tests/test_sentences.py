@@ -126,3 +126,20 @@ async def test_a_robot_speaks_the_language_that_is_set() -> None:
             lambda: any(said.message.startswith("Tehtud:") for said in home.observer.said)
         )
         assert (await home.say("peatu")).message == "Seisan paigal."
+
+
+@pytest.mark.parametrize(
+    ("said", "shown"),
+    [
+        (
+            sentence("This is what I would do: {steps}.", steps="Ask you: “Is it done.”"),
+            "Ask you: “Is it done”.",
+        ),
+        (sentence("This is what I would do: {steps}.", steps="go."), "I would do: go."),
+        (sentence("This is what I would do: {steps}.", steps="Say: “Is it?”"), "Say: “Is it?”."),
+    ],
+)
+def test_a_sentence_ends_once_whatever_is_filled_in_before_its_end(said: str, shown: str) -> None:
+    assert said.endswith(shown)
+    for text in (said, str(said)):
+        assert not re.search(r"(?<!\.)\.[”“]?\.(?!\.)", in_language(text, "et"))

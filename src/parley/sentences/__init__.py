@@ -17,7 +17,7 @@ from typing import Annotated, Final, Self
 import yaml
 from pydantic import AfterValidator
 
-from parley.sentences.forms import Catalogue, is_own
+from parley.sentences.forms import Catalogue, ended_once, is_own
 
 __all__ = ["LANGUAGES", "Sentence", "SpokenLanguage", "in_language", "listed", "sentence", "together"]
 
@@ -49,7 +49,7 @@ class Sentence(str):
     @classmethod
     def of(cls, template: str, values: dict[str, object]) -> Self:
         """Fill in `values`."""
-        made = cls(template.format(**values))
+        made = cls(ended_once(template.format(**values)))
         made.template, made.values = template, values
         return made
 

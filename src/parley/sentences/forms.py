@@ -14,10 +14,11 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Final
 
-__all__ = ["Catalogue", "is_own"]
+__all__ = ["Catalogue", "ended_once", "is_own"]
 
 _HOLE: Final = re.compile(r"\{(\w+)\}")
 _END: Final = re.compile(r"(?<=[.?!])(?:[”)])?\s+(?=[^\s])|(?<=[.?!][”)])\s+")
+_ENDED_TWICE: Final = re.compile(r"(?<!\.)\.([”“’‘]?)\.(?!\.)")
 _KEPT: Final = 4096
 """Texts whose words in the other language are held ready."""
 _MOST_CHARS: Final = 4000
@@ -114,7 +115,7 @@ class Catalogue:
 
     def filled(self, template: str, values: Mapping[str, object]) -> str:
         """A sentence of which is known what it was made of."""
-        return self.pairs.get(template, template).format(**values)
+        return ended_once(self.pairs.get(template, template).format(**values))
 
     def _find(self, text: str) -> str:
         whole = self._whole(text)
@@ -155,8 +156,13 @@ class Catalogue:
                 continue
             values = {name: value if name in form.own else self._said(value) for name, value in held.items()}
             if not form.joins or (values != held and len(list(_sentences(text))) == 1):
-                return form.other.format(**values)
+                return ended_once(form.other.format(**values))
         return None
+
+
+def ended_once(text: str) -> str:
+    """Without the full stop of what is filled in where the sentence has its own right behind it."""
+    return _ENDED_TWICE.sub(r"\1.", text)
 
 
 def _is_balanced(text: str) -> bool:
