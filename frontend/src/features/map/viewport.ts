@@ -162,7 +162,10 @@ export function roomForLabels(
     return true;
   };
   for (const label of labels) write(label, label.texts.at(-1) ?? '', true);
-  for (const label of labels) if (written.has(label.id)) label.texts.slice(0, -1).some((text) => write(label, text, false));
+  for (const label of labels) {
+    const at = written.get(label.id); // longer words only where the short ones stand: there they belong
+    if (at) label.texts.slice(0, -1).some((text) => write({ ...label, at, others: [] }, text, false));
+  }
   return written;
 }
 
