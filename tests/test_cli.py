@@ -13,6 +13,10 @@ import pytest
 
 from parley.cli import command_line, run
 from parley.memory.embedding_server import EmbeddingServer
+from parley.site import Site
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapArea, MapObject, ObjectMap
+from parley.world.placed import Placed
 from tests.sim.worlds import TWO_ROOMS
 
 DEMO = Path(__file__).parents[1] / "src" / "parley" / "demos" / "nursing_home"
@@ -262,6 +266,25 @@ def test_interpret_answers_every_line_and_survives_bad_ones(tmp_path: Path) -> N
     assert [line.get("id") for line in lines] == ["1", None, "3"]
     assert [next(iter(item)) for item in lines[0]["output"]["queue"]] == ["GetCoordinates", "NavigateTo"]
     assert "error" in lines[1]
+
+
+def test_what_people_put_on_a_map_is_an_object_map_for_a_robot(tmp_path: Path) -> None:
+    out, folder = tmp_path / "object_map.json", tmp_path / "robot"
+    done = parley("places", str(tmp_path), str(out))
+    assert done.returncode == 2 and "nobody put anything" in done.stderr
+    shelf = MapObject("shelf_1", "shelf", 1.0, 2.0, "place", stand=Pose2D(1.0, 1.0, 1.57))
+    bench, hall = MapObject("bench_1", "bench", 3.0, 2.0, "bench"), MapArea("hall", ((0, 0), (4, 0), (4, 3)))
+    placed = Placed().changed(None, shelf).changed(None, hall).changed(bench, None)
+    told = {"maps": {"home": placed.to_json(), "yard": Placed().to_json()}}
+    (tmp_path / "places.json").write_text(json.dumps(told))
+    folder.mkdir()
+    (folder / "object_map.json").write_text(json.dumps(ObjectMap((bench,)).to_json()))
+    done = parley("places", str(tmp_path), str(out), "--site", str(folder))
+    assert done.returncode == 2 and "home, yard" in done.stderr
+    done = parley("places", str(tmp_path), str(out), "--site", str(folder), "--map", "home")
+    assert done.stdout == "home: 1 things, 1 rooms\n"
+    out.replace(folder / "object_map.json")
+    assert Site.load(folder).objects == ObjectMap((shelf,), (hall,))
 
 
 def test_world_is_checked_and_wrong_fields_are_named(tmp_path: Path) -> None:

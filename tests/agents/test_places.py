@@ -16,6 +16,7 @@ from parley.config import SystemConfig
 from parley.demos.observer import Observer
 from parley.engines import WorldView
 from parley.errors import FileFormatError
+from parley.gate.audit_text import told
 from parley.messages import topics
 from parley.messages.audit import AuditEvent
 from parley.messages.map import GetMap, MapInfo, MapRoom, MapThing, PlaceChange, PlaceChanged
@@ -98,8 +99,8 @@ async def test_who_comes_second_is_told() -> None:
         assert isinstance(put, MapThing)
         first = put.model_copy(update={"x": 4.0})
         assert (await it.ask(was=put, put=first)).problem == ""
-        for late in ({"put": put.model_copy(update={"x": 5.0})}, {}):
-            assert "Somebody else" in (await it.ask(was=put, **late)).problem
+        for late in (put.model_copy(update={"x": 5.0}), None):
+            assert "Somebody else" in (await it.ask(was=put, put=late)).problem
         assert "muutis" in (await it.ask(was=put, language="et")).problem
         assert "Somebody else" in (await it.ask(put=put)).problem, "an id is there once"
         shown = next(thing for thing in (await it.map()).objects if thing.id == put.id)
@@ -150,7 +151,7 @@ async def test_only_supervisors_change_the_map(by: Principal | None) -> None:
     [
         ("", "1 to 80"),
         ("stop", "keeps its meaning"),
-        ("robot A", "“robot A” calls a robot"),
+        ("pump A", "“pump A” calls a robot"),
         ("x" * 81, "1 to 80"),
     ],
 )
@@ -172,6 +173,10 @@ async def test_what_was_put_there_is_there_after_a_restart_and_in_the_log(tmp_pa
     assert [(event.by and event.by.name, event.detail) for event in mapped(events)] == [
         ("Kim", {"put": {"id": "room lab", "name": "lab", "x": 4.5, "y": 2.0}, "map": "two rooms"}),
         ("Kim", {"was": {"id": "crate_1", "name": "green crate", "x": 5.2, "y": 2.0}, "map": "two rooms"}),
+    ]
+    assert [*map(told, mapped(events))] == [
+        "Kim put “lab” on the map.",
+        "Kim took “green crate” off the map.",
     ]
     async with crew(config) as it:
         assert await it.names() == {"lab"}

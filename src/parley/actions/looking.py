@@ -9,12 +9,14 @@ from typing import Final
 import numpy as np
 
 from parley.robots.base import CameraImage, Detection, Robot
+from parley.world.object_map import MapObject
 from parley.world.whereabouts import Place, bearings
 
 __all__ = ["View", "view"]
 
 _SAME_M: Final = 0.6
 """What two pictures show so near to each other is the same, if it is called the same."""
+_ON_IT_M: Final = 0.3
 _RIM: Final = 0.95
 """Share of a picture's opening that counts: things at its rim are cut."""
 
@@ -42,6 +44,8 @@ async def view(robot: Robot, place: Place | None) -> View:
     sight = robot.sight
     if place is None or sight is None:
         return View(await robot.image())
+    if isinstance(place, MapObject) and place.gap_m(robot.pose().x_m, robot.pose().y_m) < _ON_IT_M:
+        return View(await robot.image(), False)  # it is all around
     low, high = bearings(robot.pose(), place)
     half = sight.fov_rad / 2 * _RIM
     if -half <= low and high <= half:

@@ -43,6 +43,7 @@ _COMMANDS: Final = {
     "language": _Later("Teach words of your own; check what the built-in engine learns from."),
     "memory": _Later("Look into a memory file and change it."),
     "rules": _Later("What robots may do: look at rules, check a file, try a drive."),
+    "places": _Later("Take what people put on a map, as an object map."),
     "world": _Later("Check world files, make maps and pictures of them.", "sim"),
     "prompt": _Later("See what a language model would be told."),
     "bench": _Later("Measure on this machine.", "sim"),

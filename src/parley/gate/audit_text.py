@@ -153,6 +153,8 @@ def _special(event: AuditEvent) -> Sentence | None:
                 return sentence("{robot} may move again", robot=robot)
     if event.effect == "begin" and "proposal" in detail:
         return sentence("{robot} waits for a yes: {what}", robot=robot, what=what_of(detail))
+    if event.effect == "map":
+        return _mapped(event)
     if event.effect == "end":
         return _ended(event)
     if event.effect == "gap" and "dropped" in detail:
@@ -163,6 +165,23 @@ def _special(event: AuditEvent) -> Sentence | None:
             remembered if event.effect == "remember" else sentence("Forgotten: {what}", what=what_of(detail))
         )
     return None
+
+
+def _mapped(event: AuditEvent) -> Sentence:
+    """What was done to rooms and things."""
+    who, was, put = who_of(event.by), event.detail.get("was"), event.detail.get("put")
+    before, after = (place.get("name", "") if isinstance(place, dict) else "" for place in (was, put))
+    if before and after and before != after:
+        return sentence(
+            "{who} changed “{before}” to “{words}” on the map", who=who, before=before, words=after
+        )
+    if before and after:
+        return sentence("{who} changed “{words}” on the map", who=who, words=after)
+    if before:
+        return sentence("{who} took “{words}” off the map", who=who, words=before)
+    if after:
+        return sentence("{who} put “{words}” on the map", who=who, words=after)
+    return sentence("{who} changed the map of {robot}", who=who, robot=event.robot)
 
 
 def _ended(event: AuditEvent) -> Sentence:

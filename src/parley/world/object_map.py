@@ -25,7 +25,10 @@ from parley.errors import FileFormatError
 from parley.files import TextFile, parse_json, validated
 from parley.world.geometry import Extent, Metres, Pose2D
 
-__all__ = ["MapArea", "MapObject", "ObjectMap"]
+__all__ = ["PLACE", "MapArea", "MapObject", "ObjectMap"]
+
+PLACE: Final = "place"
+"""Class of what is nothing but a place with a name."""
 
 _PERSON: Final = "person"
 

@@ -15,13 +15,10 @@ from pydantic import BaseModel, ConfigDict
 
 from parley.files import validated
 from parley.world.geometry import Metres
-from parley.world.object_map import MapObject, ObjectMap
+from parley.world.object_map import PLACE, MapObject, ObjectMap
 from parley.world.whereabouts import Place, middle_of
 
-__all__ = ["PLACE", "Placed", "at_same_spot", "key_of", "names_of", "new_id", "same_name"]
-
-PLACE: Final = "place"
-"""Class of what is nothing but a place with a name."""
+__all__ = ["Placed", "at_same_spot", "key_of", "names_of", "new_id", "same_name"]
 
 _SAME_M: Final = 0.005
 _ARTICLE: Final = re.compile(r"^(?:the|a|an) ")

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Final, Literal
 
 from parley.world.geometry import Pose2D, wrap_angle
-from parley.world.object_map import MapArea, MapObject, ObjectMap
+from parley.world.object_map import PLACE, MapArea, MapObject, ObjectMap
 
 __all__ = [
     "NEAR_M",
@@ -52,13 +52,15 @@ def called(name: str) -> str:
 
 
 def standing(thing: Footprint, place: Place) -> Standing:
-    """Whether something stands in a place, on its edge, or outside.
+    """Whether something stands in a place, on its edge, or outside; a mere spot reaches two metres around.
 
     Examples:
         >>> bay = MapObject("bay", "bay", 0.0, 0.0, width_m=2.0, height_m=2.0)
         >>> [standing(Footprint(x, 0.0, 0.4, 0.4), bay) for x in (0.0, 0.9, 1.5)]
         ['in', 'edge', 'outside']
     """
+    if isinstance(place, MapObject) and place.class_name == PLACE and not place.width_m + place.height_m:
+        return "in" if math.hypot(thing.x_m - place.x_m, thing.y_m - place.y_m) <= NEAR_M else "outside"
     if isinstance(place, MapArea):
         corners = [
             place.holds(thing.x_m + dx * thing.width_m / 2, thing.y_m + dy * thing.height_m / 2)

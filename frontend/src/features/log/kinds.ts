@@ -19,6 +19,7 @@ export const kinds = [
   'forget',
   'policy',
   'rule',
+  'map',
   'setting',
   'people',
   'sign_in',

@@ -28,8 +28,8 @@ from parley.messages.ros import ChatRequest
 from parley.messages.status import PoseInfo
 from parley.messages.wire import decode, encode
 from parley.sentences import sentence, together
-from parley.world.object_map import MapArea, MapObject, ObjectMap
-from parley.world.placed import PLACE, same_name
+from parley.world.object_map import PLACE, MapArea, MapObject, ObjectMap
+from parley.world.placed import same_name
 
 __all__ = ["Placing"]
 
