@@ -18,6 +18,7 @@ from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.incident import Incident
 from parley.messages.map import MapView, PlacesKept
 from parley.messages.memory import AddToMemory, MemoryEvent, RemoveMemory
+from parley.messages.passages import PassageList
 from parley.messages.robot import Notice, RulesInForce
 from parley.messages.status import (
     ActorStatus,
@@ -64,6 +65,7 @@ PAYLOADS: dict[str, tuple[type[BaseModel], ...]] = {
     "/parley/places_kept": (PlacesKept,),
     "/parley/rules_in_force": (RulesInForce,),
     "/parley/missions": (MissionList,),
+    "/parley/passages": (PassageList,),
     "/parley/notice": (Notice,),
 }
 

@@ -6,6 +6,7 @@ Between these and `Nodes` there is nothing but topics and services.
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import math
 from collections.abc import Sequence
 from contextlib import AsyncExitStack
@@ -18,6 +19,7 @@ import structlog
 from parley.actions.context import ActionContext
 from parley.agents.display.camera_feed import CameraFeed
 from parley.agents.display.map_feed import MapFeed, MapViews
+from parley.agents.mates import Mates
 from parley.agents.notices import Notifier
 from parley.config import SystemConfig
 from parley.engine.engine import ActionEngine
@@ -32,12 +34,14 @@ from parley.gate.stop_line import StopLine
 from parley.language.base import Language
 from parley.messages import ros, topics
 from parley.messages.map import PlacesKept
+from parley.messages.passages import PassageList
 from parley.messages.robot import RobotSite
 from parley.messages.wire import decode, to_string
 from parley.opening import OpenedTogether
 from parley.robots.base import Robot
 from parley.robots.fleet import Fleet
 from parley.robots.run_robot import RunRobot
+from parley.robots.turn import Turn
 from parley.transport.base import Transport
 from parley.umrf.action import ActionSpec, RunHandle
 from parley.umrf.catalogue import Catalogue
@@ -211,6 +215,7 @@ class Engines(OpenedTogether):
             folder = ActionFolder(config.actions_dir)
             live = LiveActions(self.catalogue, folder, self._actions, tell=self._tell_unusable)
             await enter(live)
+        mates = await enter(Mates(self._transport, clock))
         watchdog = LoopWatchdog(self._line, self.names, clock, self.tell)
         watchdog.open()
         stack.push_async_callback(watchdog.close)
@@ -220,7 +225,7 @@ class Engines(OpenedTogether):
         stack.push_async_callback(heard.close)
         self.tell_sites()
         for name in self.names:
-            await self._open_robot(stack, name, self.journal)
+            await self._open_robot(stack, name, self.journal, mates)
         stack.push_async_callback((await self.journal.heed_plans(self._transport)).close)
         stack.push_async_callback(self.journal.end)
         stack.callback(self._engines.clear)
@@ -260,13 +265,16 @@ class Engines(OpenedTogether):
         )
         self._sites[name] = (site, topics.actor_site(name))
 
-    async def _open_robot(self, stack: AsyncExitStack, name: str, journal: Journal) -> None:
+    async def _open_robot(self, stack: AsyncExitStack, name: str, journal: Journal, mates: Mates) -> None:
         enter, transport, clock = stack.enter_async_context, self._transport, self._fleet.clock
         view = WorldView(self, name, self._fleet.occupancy(name))
         rules = RuleBook.unread(clock)
         rules.know(name, self._fleet.facts(name))
         robot = self.robots[name] = self._fleet.robot(name, rules)
         services = await enter(ContextServices(name, transport))
+        turn = Turn(robot, lambda: self.objects.areas, clock)
+        hears = await transport.subscribe(topics.PASSAGES, partial(_hear, turn))
+        stack.push_async_callback(hears.close)
         unfinished = Unfinished(name, [was for was in journal.interrupted if was.actor == name])
         await unfinished.open(transport)
         stack.push_async_callback(unfinished.close)
@@ -274,12 +282,13 @@ class Engines(OpenedTogether):
         def make_context(run: RunHandle) -> ActionContext:
             return ActionContext(
                 run=run,
-                robot=RunRobot(robot, run.motion),
+                robot=RunRobot(robot, run.motion, turn, services),
                 world=view,
                 memory=services,
                 display=services,
                 operator=services,
                 language=self._language,
+                mates=mates,
             )
 
         engine = await enter(
@@ -294,14 +303,21 @@ class Engines(OpenedTogether):
                 journal=journal,
                 line=self._line,
                 rules=rules,
+                claim=turn.claim,
             )
         )
+        turn.changed = engine.changed
         unfinished.take_up(engine)
         self._engines.append(engine)
         if "camera" in robot.capabilities:
             await enter(CameraFeed(transport, robot, self._config.camera_hz))
         await enter(MapViews(transport, robot, view.occupancy.name, clock, lambda: view.objects))
         await enter(MapFeed(transport, robot, view.occupancy, lambda: view.objects.objects, clock))
+
+
+def _hear(turn: Turn, message: ros.String) -> None:
+    with contextlib.suppress(InvalidMessageError):  # what makes no sense gives no place to anybody
+        turn.hear(decode(PassageList, message.data))
 
 
 def _standing(robot: Robot) -> tuple[Spot, ...]:

@@ -19,6 +19,7 @@ from parley.agents.display.display_interface import DisplayInterface
 from parley.agents.display.map_service import MapService
 from parley.agents.memory import MemoryNode
 from parley.agents.notices import Notices
+from parley.agents.passages import Passages
 from parley.agents.places import Places
 from parley.agents.planner.umrf_planner import UmrfPlanner
 from parley.agents.planner.unattended import UnattendedPlans
@@ -172,6 +173,7 @@ class Nodes(OpenedTogether):
         # Only now: whoever is told a plan may answer at once, and has to be heard.
         await enter(self._speaking(planner))
         await enter(self._speaking(Lookout(transport, clock)))
+        await enter(Passages(transport, clock))
         await enter(Batteries(transport, self._tell_for))
         absent = UnattendedPlans(transport, clock, config.unattended, config.unattended_after_s)
         await enter(self._speaking(absent))

@@ -29,6 +29,7 @@ def test_parameters_are_those_of_the_thesis() -> None:
         "TurnBy": ({"angle": "number", "direction": "string"}, {}),
         "TakePicture": ({"target": "string"}, {}),
         "Wait": ({"duration": "number"}, {}),
+        "WaitForRobot": ({"robot": "string", "order": "string"}, {}),
         "Say": ({"text": "string", "to": "string"}, {}),
         "Follow": ({"person": "string", "duration": "number"}, {}),
         "Dock": ({}, {}),
@@ -42,7 +43,7 @@ def test_effects_say_who_moves_and_who_asks() -> None:
         "GetCoordinates": ("locates",), "NavigateTo": ("moves",), "Inspect": ("looks",),
         "AskOperator": ("asks_operator",), "KeepPicture": ("remembers",), "MoveBy": ("moves",),
         "TurnBy": ("turns",), "TakePicture": ("looks", "shows"), "Wait": ("waits",),
-        "Say": ("speaks",), "Follow": ("follows", "moves"), "Dock": ("moves",),
+        "WaitForRobot": ("waits",), "Say": ("speaks",), "Follow": ("follows", "moves"), "Dock": ("moves",),
         "PickUp": ("grasps",), "Place": ("places",),
     }  # fmt: skip
 

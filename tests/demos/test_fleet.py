@@ -14,7 +14,7 @@ from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, SystemCommand
 from parley.messages.principal import person
 from parley.messages.status import ActorStatus
-from parley.messages.team import MissionList, MissionPart
+from parley.messages.team import WAITS_FOR, MissionList, MissionPart
 from parley.messages.wire import decode
 from tests.demos.house import PATIENCE_S, House, played, running
 
@@ -114,39 +114,48 @@ async def test_whoever_hears_that_all_shall_stop_all_do() -> None:
 async def test_who_follows_begins_when_the_other_is_there() -> None:
     async with hall() as home:
         await home.say("Leo goes to Area C, Spot follows when it is there", "TIAGo")
-        assert {robot for robot, own in goals(home).items() if own} == {"Leo"}
         await home.state("running", "Spot")
+        assert waits(home, "Spot") == "running"
+        await home.observer.until(lambda: waits(home, "Spot") == "finished", timeout_s=PATIENCE_S)
         assert {step.state for step in home.observer.plans["Leo"].steps} == {"finished"}
         assert set(await home.done("Spot")) == {"finished"}
 
 
-async def test_a_part_that_waits_is_asked_about_when_the_other_or_it_is_stopped() -> None:
+def waits(home: House, robot: str) -> str:
+    """How the step stands in which a robot waits for another one."""
+    plan = home.observer.plans.get(robot)
+    return next((step.state for step in plan.steps if step.action.name == WAITS_FOR), "") if plan else ""
+
+
+async def test_who_waits_asks_when_the_other_will_not_do_its_part_and_stands_while_it_is_stopped() -> None:
     async with hall() as home:
         await home.say("Leo goes to the pump, Spot follows when it is there", "TIAGo")
         await home.say("cancel everything", "Leo")
-        await home.state("awaiting_approval", "Spot")
-        assert "Leo has not done its part" in home.observer.said[-1].message
-        await home.say("yes", "Spot")
-        await home.state("running", "Spot")
+        assert "Leo has not done its part" in (await home.question("Spot")).message
+        home.observer.say("yes", "Spot", answer=True)
+        await home.observer.until(lambda: waits(home, "Spot") == "finished", timeout_s=PATIENCE_S)
+        await home.say("cancel everything", "Spot")
         await home.say("Leo goes to Area C, TIAGo goes to Area A when Leo is there", "Spot")
         await home.say("stop", "TIAGo")
-        await home.state("awaiting_approval", "TIAGo")
-        assert "told to stop before I began" in home.observer.proposed["TIAGo"].why
         assert set(await home.done("Leo")) == {"finished"}
-        assert home.observer.state("TIAGo") == "awaiting_approval"
+        assert home.observer.state("TIAGo") == "paused"
+        assert waits(home, "TIAGo") != "finished"
+        await home.say("carry on", "TIAGo")
+        assert set(await home.done("TIAGo")) == {"finished"}
+        assert home.distance_m("area_a", "TIAGo") < 1.6
 
 
-async def test_a_part_that_waits_when_everything_is_shut_down_is_asked_about_afterwards(
-    tmp_path: Path,
-) -> None:
+async def test_a_wait_outlives_its_planner_and_the_end_of_everything(tmp_path: Path) -> None:
     async with hall(data_dir=tmp_path) as home:
-        await home.say("Leo goes to the pump, Spot follows when it is there", "TIAGo")
+        await home.say("Leo goes to Area C, Spot follows when it is there", "TIAGo")
+        await home.observer.until(lambda: waits(home, "Spot") == "running", timeout_s=PATIENCE_S)
     async with hall(data_dir=tmp_path) as home:
-        await home.state("awaiting_approval", "Spot")
-        assert [call.name for call in home.observer.proposed["Spot"].steps] == [
-            "GetCoordinates",
-            "NavigateTo",
-        ]
+        await home.state("paused", "Spot")
+        assert waits(home, "Spot") in ("queued", "paused")
+        await home.say("carry on", "Leo")
+        await home.say("carry on", "Spot")
+        assert set(await home.done("Spot")) == {"finished"}
+        assert home.distance_m("area_c", "Leo") < 1.6
 
 
 async def test_what_a_robot_leaves_undone_is_offered_to_the_best_of_the_others() -> None:

@@ -25,9 +25,10 @@ async def test_a_task_is_done(task: TeamTask) -> None:
 
 
 @pytest.mark.soak
+@pytest.mark.timeout(1200)
 @pytest.mark.parametrize("seed", [1, 2])
 async def test_hardly_a_task_is_not_done_and_none_is_done_wrongly(seed: int) -> None:
     found = {task.name: await try_task(load_demo("fleet"), task, seed=seed) for task in TASKS}
     verdicts = Counter(verdict for verdict, _ in found.values())
-    assert verdicts["wrong"] == 0, found
+    assert [name for name, (verdict, _) in found.items() if verdict == "wrong"] == []
     assert verdicts["right"] >= 30, found

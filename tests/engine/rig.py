@@ -94,6 +94,16 @@ class DummyRobot:
         self.told.append("release")
 
 
+class Nobody:
+    """Where no person is told or asked anything."""
+
+    def tell(self, text: str) -> None:
+        raise AssertionError(text)
+
+    async def ask(self, question: str, choices: Sequence[str] = ()) -> str:
+        raise AssertionError(question)
+
+
 class Rig:
     """What tests send and see."""
 

@@ -375,3 +375,20 @@ async def test_a_graph_of_a_thousand_actions_runs_and_is_stopped_on_its_way() ->
         assert sequences == list(range(len(sequences)))
         assert len(sequences) == 2 * 999 + 6  # each begins and ends; the last stops in between; the graph
         assert [(item.code, item.path) for item in rig.rejections[0].problems] == [("too_large", "actions")]
+
+
+@pytest.mark.parametrize(
+    ("end", "told"), [("", "done"), ("skip", "left"), ("fail", "failed"), ("stop", "left")]
+)
+async def test_whoever_waits_for_an_order_hears_how_far_it_is(end: str, told: str) -> None:
+    async with rigged() as rig:
+        lasts = {"": node("NoOp", 1), "fail": node("Fail", 1, reason="a box")}
+        graph = planner_chain("g", [node("NoOp", 0), lasts.get(end) or node("WaitFor", 1, seconds=60)])
+        for item in graph["actions"]:
+            item["gui_attributes"] = {"parley_order": "o"}
+        rig.start(graph)
+        if end in ("skip", "stop"):
+            await rig.until_node("g", "WaitFor_1", ["RUNNING"])
+            skip = StepCommand(target="A", graph_name="g", node="WaitFor_1")
+            rig.stop("g") if end == "stop" else rig.transport.publisher(topics.STEP).publish(to_string(skip))
+        await rig.until(lambda: rig.statuses and rig.statuses[-1].orders == {"o": told})

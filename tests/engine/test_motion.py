@@ -14,12 +14,13 @@ from parley.errors import ActionFailure
 from parley.gate.stop_line import StopLine
 from parley.robots.base import Velocity
 from parley.robots.run_robot import RunRobot
+from parley.robots.turn import Turn
 from parley.umrf.action import action
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.motion import GRACE_S
 from tests.umrf.spec_actions import chain
 
-from .rig import KIM, DummyRobot, Rig, rigged
+from .rig import KIM, DummyRobot, Nobody, Rig, rigged
 
 FAST = Velocity(0.2)
 
@@ -59,11 +60,12 @@ def roll_in_a_thread(ctx: Any) -> None:
 async def driving(name: str) -> AsyncIterator[tuple[Rig, DummyRobot, StopLine]]:
     """One of the actions above, under way."""
     robot, line = DummyRobot(), StopLine()
+    turn = Turn(robot, lambda: (), WallClock())
     async with rigged(
         robot,
         line=line,
         catalogue=Catalogue([shove.spec, roll.spec, roll_in_a_thread.spec]),
-        make_context=lambda run: SimpleNamespace(run=run, robot=RunRobot(robot, run.motion)),
+        make_context=lambda run: SimpleNamespace(run=run, robot=RunRobot(robot, run.motion, turn, Nobody())),
     ) as rig:
         rig.start(chain("g", [{"name": name, "type": "sync", "instance_id": 0}]))
         await rig.until_graph("g", "RUNNING")

@@ -47,7 +47,7 @@ def test_the_built_in_actions_say_what_they_do() -> None:
         "AskOperator": "looks_and_speaks", "KeepPicture": "looks_and_speaks", "MoveBy": "moves",
         "TurnBy": "moves", "TakePicture": "looks_and_speaks", "Wait": "looks_and_speaks",
         "Say": "looks_and_speaks", "Follow": "moves", "Dock": "moves", "PickUp": "handles_things",
-        "Place": "handles_things",
+        "Place": "handles_things", "WaitForRobot": "looks_and_speaks",
     }  # fmt: skip
 
 

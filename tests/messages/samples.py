@@ -15,6 +15,7 @@ from parley.messages import (
     incident,
     map,
     memory,
+    passages,
     principal,
     status,
 )
@@ -35,6 +36,14 @@ MOVE: dict[str, Any] = {
 LOOK: dict[str, Any] = {"Look": {"input_parameters": {}, "output_parameters": {}}}
 
 KIM: dict[str, Any] = {"kind": "person", "name": "Kim", "device": "terminal", "role": "operator", "key": ""}
+CLAIM = {
+    "id": "c",
+    "wants": ["hall"],
+    "held": True,
+    "inside": ["door"],
+    "capacity": {"hall": 1, "door": 2},
+    "without": ["B"],
+}
 POSE = {"x": 1.0, "y": -2.5, "yaw": 3.1}
 MEMORY = {
     "type": "text",
@@ -268,6 +277,11 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
     status.ParameterInfo: PARAMETER,
     status.ActionInfo: ACTION_INFO,
     attendance.Attendance: {"server": "8c1f", "people": 2},
+    passages.PassageList: {
+        "places": [{"name": "hall", "robots": ["A"], "lost": ["A"], "waiting": ["B"]}],
+        "granted": {"A": "c"},
+        "stuck": ["B"],
+    },
     status.ActorStatus: {
         "actor": "A",
         "state": "running",
@@ -277,6 +291,8 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "battery": 0.75,
         "trouble": "pressed",
         "graphs": {"g": "RUNNING"},
+        "orders": {"o": "open"},
+        "claim": CLAIM,
         "catalogue": [ACTION_INFO],
         "map_name": "hall",
         "unix_ms": 1,
@@ -383,7 +399,6 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "policy": "ask_when_risky",
         "held_by": KIM,
         "waits": ["9b"],
-        "later": ["o2"],
     },
     status.PlanRuling: {
         "order": "7",

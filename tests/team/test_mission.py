@@ -81,8 +81,10 @@ def test_a_part_waits_for_a_yes_then_for_others_and_a_no_ends_it() -> None:
     told.book.on_proposal(PlanProposal(id="p", target="Kim", order="Kim", lines=("see Kim",)))
     told.plan("Kim", waits=("p",), state="awaiting_approval")
     assert told.states == ["queued", "asked"]
-    told.plan("Kim", waits=(), later=("Kim",), state="idle")
+    waiting = PlanStep(action=ActionCall(name="WaitForRobot"), id="w", state="running", order="Kim")
+    told.plan("Kim", waiting, step("Kim", "a desk"), waits=())
     assert told.states == ["queued", "waiting"]
+    assert told.book.shown[0].parts[1].count == 1  # waiting is no step of the work
     told.plan("Kim", state="idle")
     assert told.states == ["queued", "undone"]
 

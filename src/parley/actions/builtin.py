@@ -16,6 +16,7 @@ from parley.actions.say import say
 from parley.actions.take_picture import take_picture
 from parley.actions.turn_by import turn_by
 from parley.actions.wait import wait
+from parley.actions.wait_for_robot import wait_for_robot
 from parley.umrf.action import ActionSpec
 
 __all__ = ["BUILTIN_ACTIONS"]
@@ -32,6 +33,7 @@ BUILTIN_ACTIONS: tuple[ActionSpec, ...] = tuple(
         turn_by,
         take_picture,
         wait,
+        wait_for_robot,
         say,
         follow,
         dock,

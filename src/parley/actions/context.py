@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from parley.actions.mates import ALONE, Mates
 from parley.clock import Clock
 from parley.language.base import Language
 from parley.memory.pictures import pixels_to_jpeg
@@ -105,6 +106,7 @@ class ActionContext:
     display: Display
     operator: Operator
     language: Language
+    mates: Mates = ALONE
 
     @property
     def clock(self) -> Clock:

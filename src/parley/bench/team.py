@@ -18,6 +18,7 @@ from parley.demos.observer import Observer
 from parley.messages import topics
 from parley.messages.ros import String
 from parley.messages.status import PlanStep, PlanUpdate
+from parley.messages.team import WAITS_FOR
 from parley.messages.wire import decode_plan
 from parley.system import System
 
@@ -118,14 +119,15 @@ class _Watch:
         self.plans[told.target] = told
         for step in told.steps:
             key = (told.target, step.id)
-            if step.state not in ("queued", "skipped", "stopped") and told.target not in self.began:
+            sets_out = step.state not in ("queued", "skipped", "stopped") and step.action.name != WAITS_FOR
+            if sets_out and told.target not in self.began:
                 self.began.append(told.target)
             if step.state == "finished" and key not in self.done:
                 self.done[key], self.out[key] = step, len(self.began)
 
     def is_over(self) -> bool:
         """Whether nobody is at anything by itself any more, nor waits for others."""
-        return not any(plan.state == "running" or plan.later for plan in self.plans.values())
+        return not any(plan.state == "running" for plan in self.plans.values())
 
     def count(self, what: str) -> int:
         """How often it was looked at."""

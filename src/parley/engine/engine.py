@@ -17,6 +17,7 @@ from parley.engine.heap import settle_heap
 from parley.engine.inbox import Inbox
 from parley.engine.interrupted import Interrupted
 from parley.engine.journal import Journal
+from parley.engine.orders import Orders
 from parley.engine.presence import Presence
 from parley.engine.runs import GraphRuns
 from parley.engine.stop import EmergencyStop
@@ -27,6 +28,7 @@ from parley.errors import ConfigError, GraphRefusedError, InvalidMessageError, P
 from parley.gate.book import RuleBook
 from parley.gate.stop_line import StopLine
 from parley.messages import ros, topics
+from parley.messages.passages import PassageClaim
 from parley.messages.robot import RulesInForce
 from parley.messages.status import (
     ActionInfo,
@@ -100,6 +102,7 @@ class ActionEngine(OpenedTogether):
         line: The line on which it is stopped, whose owner listens to `/parley/stop`; None: one of its own.
         rules: By what `admit` and the robot's drive go; filled from what is told here, before the commands
             that are told later. None: nothing is heard.
+        claim: Tells what the robot wants of places that only so many may be in.
     """
 
     def __init__(
@@ -119,12 +122,13 @@ class ActionEngine(OpenedTogether):
         peer_timeout_s: float = PEER_TIMEOUT_S,
         line: StopLine | None = None,
         rules: RuleBook | None = None,
+        claim: Callable[[], PassageClaim | None] = lambda: None,
     ) -> None:
         super().__init__()
         self.actor = actor
         catalogue = catalogue if robot is None else catalogue.for_robot(robot.capabilities)
         self._transport, self._catalogue, self._clock = transport, catalogue, clock
-        self._journal, self._rules = journal, rules
+        self._journal, self._rules, self._claim = journal, rules, claim
         self._robot, self._heartbeat_s = robot, heartbeat_s
         self._own_line = line is None
         self._line = line or StopLine()
@@ -143,6 +147,7 @@ class ActionEngine(OpenedTogether):
             latched=lambda: self._line.latched(actor),
         )
         self._feedback = Feedback(actor, clock, lambda message: self._publish(topics.GRAPH_FEEDBACK, message))
+        self._orders = Orders()
         self._presence: Presence | None = None
         self._loop: asyncio.AbstractEventLoop | None = None
         self._together = Together(
@@ -190,6 +195,8 @@ class ActionEngine(OpenedTogether):
             heartbeat_s=self._heartbeat_s,
             unix_ms=self._clock.unix_ms,
             stop=lambda: self._line.in_force(self.actor),
+            orders=lambda: self._orders.states(self.runs.all),
+            claim=self._claim,
         )
         self._presence.open()
         stack.push_async_callback(self._presence.close)
@@ -215,7 +222,7 @@ class ActionEngine(OpenedTogether):
     def _stop_changed(self, command: StopCommand) -> None:
         if command.command == "stop":
             self._together.hold()
-        self._status_changed()
+        self.changed()
 
     async def _serve(self, stack: AsyncExitStack) -> None:
         own = await self._transport.serve(topics.actor_graph_get(self.actor), self._graph_get)
@@ -363,7 +370,7 @@ class ActionEngine(OpenedTogether):
         """Tell whoever has come, or come back, how the graphs stand and that the robot is there."""
         for run in [run for run in self.runs.all if not run.outer][-TOLD_AGAIN:]:
             self._feedback.changed(run)
-        self._status_changed()
+        self.changed()
 
     def _start(self, message: ros.UmrfGraphStart, raw: Raw) -> None:
         if not message.umrf_graph_json:
@@ -416,10 +423,11 @@ class ActionEngine(OpenedTogether):
         self._publish(topics.GRAPH_EVENTS, to_string_unchecked(event))
         if transition.kind != "progress":
             self._feedback.changed(run)
-        if transition.kind == "graph":
-            self._status_changed()
+        if self._orders.note(run, transition) or transition.kind == "graph":
+            self.changed()
 
-    def _status_changed(self) -> None:
+    def changed(self) -> None:
+        """Its status is different now: tell it at once."""
         if self._presence is not None:
             self._presence.changed()
 

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Final, Literal
 
 import structlog
 
 from parley.engine.runs import GraphRuns
 from parley.errors import ActionFailure
-from parley.messages.status import ActionInfo, ActorStatus, PoseInfo
+from parley.messages.passages import PassageClaim
+from parley.messages.status import ActionInfo, ActorStatus, OrderState, PoseInfo
 from parley.robots.base import Robot
 from parley.umrf.model import GraphState
 
@@ -46,6 +47,8 @@ class Presence:
         heartbeat_s: Wall time between two unchanged ones.
         unix_ms: Tells what the clock shows.
         stop: Gives the id of the emergency stop in force.
+        orders: Tells how far each order is.
+        claim: Tells what it wants of places that only so many may be in.
     """
 
     def __init__(
@@ -59,10 +62,13 @@ class Presence:
         heartbeat_s: float,
         unix_ms: Callable[[], int] = lambda: 0,
         stop: Callable[[], str] = lambda: "",
+        orders: Callable[[], Mapping[str, OrderState]] = dict,
+        claim: Callable[[], PassageClaim | None] = lambda: None,
     ) -> None:
         self._actor, self._runs, self._catalogue = actor, runs, catalogue
         self._robot, self._publish, self._heartbeat_s = robot, publish, heartbeat_s
         self._unix_ms, self._stop = unix_ms, stop
+        self._orders, self._claim = orders, claim
         self._sequence = 0
         self._changed = asyncio.Event()
         self._task: asyncio.Task[None] | None = None
@@ -111,6 +117,8 @@ class Presence:
                 battery=self._robot.battery() if self._robot is not None else None,
                 trouble=self._robot.trouble() if self._robot is not None else "",
                 graphs={run.name: run.state.value for run in self._runs.all},
+                orders=dict(self._orders()),
+                claim=self._claim(),
                 catalogue=tuple(self._catalogue()),
                 unix_ms=self._unix_ms(),
                 stop=self._stop(),

@@ -138,7 +138,9 @@ def _label(call: ActionCall, info: ActionInfo | None, place: str | Sentence) -> 
     else:
         words = in_words(call.name)
         what = sentence("{what}", what=words[:1].upper() + words[1:])
-    rest = {name: value for name, value in arguments.items() if name not in named}
+    known = info.parameters if info is not None else {}
+    hidden = {name for name, about in known.items() if about.kind == "id"}
+    rest = {name: value for name, value in arguments.items() if name not in named | hidden}
     if not rest:
         return what
     given = ", ".join(f"{in_words(name.rpartition('::')[2])} “{value}”" for name, value in rest.items())

@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 
 from parley.messages.base import ParameterTree, Payload
 from parley.messages.chat import ActionCall, SystemCommand
+from parley.messages.passages import PassageClaim
 from parley.messages.plain import LineText, ShownText
 from parley.messages.principal import Principal
 
@@ -17,6 +18,7 @@ __all__ = [
     "ActorStatus",
     "GraphEvent",
     "Kind",
+    "OrderState",
     "ParameterInfo",
     "PlanDecision",
     "PlanProposal",
@@ -44,9 +46,9 @@ class PoseInfo(Payload):
 
 
 Kind = Literal[
-    "place", "thing", "person", "direction", "distance", "angle", "duration", "number", "text", "choice"
+    "place", "thing", "person", "direction", "distance", "angle", "duration", "number", "text", "choice", "id"
 ]
-"""What an input of an action takes, as people speak of it."""
+"""What an input of an action takes, as people speak of it; `id`: by what programs know something."""
 
 
 class ParameterInfo(Payload):
@@ -98,6 +100,10 @@ class ActionInfo(Payload):
         return set(self.effects) == {"locates"}
 
 
+OrderState = Literal["open", "failed", "done", "left"]
+"""How far an engine is with the steps of one order: `failed`: at one of them, and it stands; `left`: nothing
+more comes of it, and not all of it was done."""
+
 Trouble = Literal["", "silent", "pressed"]
 """What keeps a robot from moving: `silent`: its base does not answer; `pressed`: a button on it."""
 
@@ -118,6 +124,10 @@ class ActorStatus(Payload):
     trouble: Trouble = ""
     graphs: dict[str, str] = Field(default_factory=dict)
     """Graph name -> graph state."""
+    orders: dict[str, OrderState] = Field(default_factory=dict)
+    """Order `id` -> how far it is, of those newest orders whose steps say which one they carry out."""
+    claim: PassageClaim | None = None
+    """What it wants of places that only so many robots may be in; None: it knows of none."""
     catalogue: tuple[ActionInfo, ...] = ()
     """Sent with every heartbeat, so that who comes late knows it too."""
     map_name: str = ""
@@ -189,8 +199,6 @@ class PlanUpdate(Payload):
     """Who told the robot to stand still; None: nobody."""
     waits: tuple[str, ...] | None = None
     """The proposals that wait for a yes, by their ids, oldest first: no other does. None: it is not told."""
-    later: tuple[str, ...] = ()
-    """The orders, by `id`, that begin when other robots have done theirs."""
 
 
 class PlanProposal(Payload):

@@ -8,7 +8,10 @@ from parley.messages.base import Payload
 from parley.messages.plain import LineText, ShownText
 from parley.messages.principal import Principal
 
-__all__ = ["OVER", "MissionInfo", "MissionList", "MissionPart", "PartState"]
+__all__ = ["OVER", "WAITS_FOR", "MissionInfo", "MissionList", "MissionPart", "PartState"]
+
+WAITS_FOR: Final = "WaitForRobot"
+"""The action by which a robot begins when another one has done its part."""
 
 PartState = Literal[
     "asked", "queued", "waiting", "running", "paused", "held", "away", "interrupted",

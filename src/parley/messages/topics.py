@@ -103,6 +103,7 @@ ATTENDANCE = _string("/parley/attendance", latched=True)
 RULES_IN_FORCE = _string("/parley/rules_in_force", latched=True, depth=1)
 PLACES_KEPT = _string("/parley/places_kept", latched=True, depth=1)
 MISSIONS = _string("/parley/missions", latched=True, depth=1)
+PASSAGES = _string("/parley/passages", latched=True, depth=1)
 NOTICE = _string("/parley/notice")
 
 GET_MEMORY = Service("get_memory", ros.ChatRequest, ros.ChatResponse, "nl_interface_msgs/srv/Chat")
@@ -122,7 +123,7 @@ ALL_TOPICS: tuple[Topic[Any], ...] = (
     DISPLAY_FEED, GRAPH_START, GRAPH_MODIFY, GRAPH_PAUSE, GRAPH_PAUSE_TEMOTO, GRAPH_RESUME, GRAPH_STOP,
     GRAPH_FEEDBACK, ACTOR_STATUS, GRAPH_EVENTS, PLAN, PLAN_DECISION, STEP, STOP, STOP_REPORT, REJECTION, SYNC,
     MEMORY_EVENT, REPLY_DRAFT, INCIDENT, MAP_VIEW, AUDIT, RULING, ATTENDANCE,
-    RULES_IN_FORCE, PLACES_KEPT, MISSIONS, NOTICE,
+    RULES_IN_FORCE, PLACES_KEPT, MISSIONS, PASSAGES, NOTICE,
 )  # fmt: skip
 ALL_SERVICES = (GET_MEMORY, GRAPH_GET, GET_INCIDENTS, GET_MAP, GET_AUDIT, RULES, PLACES)
 

@@ -17,6 +17,7 @@ from parley.robots.base import (
     Sight,
     Velocity,
 )
+from parley.robots.turn import Asker, Turn
 from parley.umrf.motion import Motion
 from parley.world.geometry import Pose2D
 
@@ -29,10 +30,12 @@ class RunRobot:
     Args:
         robot: The robot.
         motion: Whether this run may move it.
+        turn: When it may go into places with room for so many only.
+        person: Who is told and asked about waiting there.
     """
 
-    def __init__(self, robot: Robot, motion: Motion) -> None:
-        self._robot, self._motion = robot, motion
+    def __init__(self, robot: Robot, motion: Motion, turn: Turn, person: Asker) -> None:
+        self._robot, self._motion, self._turn, self._person = robot, motion, turn, person
         self.name = robot.name
 
     @property
@@ -107,7 +110,8 @@ class RunRobot:
             ActionFailure: `declined`: the drive was taken away from this run.
         """
         if velocity == Velocity() or self._motion.allowed:
-            self._robot.drive(velocity)
+            goes = not velocity.speed_mps or self._turn.may_go()
+            self._robot.drive(velocity if goes else Velocity())
             return
         self._motion.disobeyed()
         self._check()
@@ -117,11 +121,19 @@ class RunRobot:
         """See `Robot.navigate`; it stands still while this run may not move, and ends if it never may.
 
         Raises:
-            ActionFailure: `declined`: the drive was taken away from this run.
+            ActionFailure: `declined`: the drive was taken away from this run; `blocked`, `unavailable`: it
+                has waited for its turn in vain.
         """
         self._check()
-        motion, loop = self._motion, asyncio.get_running_loop()
-        held = replace(control, paused=lambda: control.paused() or not motion.allowed)
+        motion, turn, loop = self._motion, self._turn, asyncio.get_running_loop()
+
+        def stands() -> bool:
+            if control.paused() or not motion.allowed:
+                turn.rest()
+                return True
+            return not turn.may_go(self._robot.planned_path())
+
+        held = replace(control, paused=stands)
         drive = asyncio.ensure_future(self._robot.navigate(goal, held, timeout_s=timeout_s))
 
         def end() -> None:
@@ -132,14 +144,22 @@ class RunRobot:
 
         motion.on_paused.append(stand)
         forget = motion.on_revoked(end)
+        turn.begin()
+        waiting = asyncio.ensure_future(turn.attend(self._person))
+        waiting.add_done_callback(lambda _: drive.cancel())
         try:
             return await drive
         except asyncio.CancelledError:
             task = asyncio.current_task()
             if task is None or not task.cancelling():  # only the drive was
                 self._check()
+                if waiting.done() and (failure := waiting.exception()) is not None:
+                    raise failure from None
             raise
         finally:
+            turn.end()
+            waiting.cancel()
+            drive.cancel()
             motion.on_paused.remove(stand)
             forget()
 

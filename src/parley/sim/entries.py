@@ -24,6 +24,7 @@ from parley.sim.solids import Shape, Solid
 from parley.world.geometry import Extent, Metres, Pose2D
 
 __all__ = [
+    "Area",
     "Colour",
     "Doorway",
     "Entry",
@@ -105,6 +106,16 @@ class Wall(Entry):
                     yaw, _rgb(self.colour),
                 )  # fmt: skip
             begin = max(begin, high)
+
+
+class Area(Entry):
+    """A room, or another part of the floor that has a name."""
+
+    name: Name
+    corners: tuple[Point, ...] = Field(min_length=3)
+    """One after the other around it."""
+    capacity: int | None = Field(default=None, ge=1)
+    """So many robots may be in it at once; None: any number."""
 
 
 class Part(Entry):

@@ -30,10 +30,10 @@ from pydantic import Field
 
 from parley.errors import FileFormatError
 from parley.files import TextFile, parse_yaml, validated
-from parley.sim.entries import Colour, Entry, Name, RobotEntry, RobotState, Thing, Wall, WorldChanges
+from parley.sim.entries import Area, Colour, Entry, Name, RobotEntry, RobotState, Thing, Wall, WorldChanges
 from parley.sim.events import WorldEvent
 from parley.world.geometry import Pose2D
-from parley.world.object_map import MapObject, ObjectMap
+from parley.world.object_map import MapArea, MapObject, ObjectMap
 
 __all__ = ["RobotEntry", "Thing", "WorldChanges", "WorldFile"]
 
@@ -50,6 +50,7 @@ class WorldFile(Entry, TextFile):
     name: Name
     floor: Colour = "#b9a58a"
     walls: tuple[Wall, ...] = ()
+    areas: tuple[Area, ...] = ()
     things: tuple[Thing, ...] = ()
     robots: tuple[RobotEntry, ...] = Field(min_length=1)
     events: tuple[WorldEvent, ...] = ()
@@ -174,7 +175,8 @@ class WorldFile(Entry, TextFile):
 
     def object_map(self) -> ObjectMap:
         """The object map of everything listed."""
-        return ObjectMap(tuple(self._map_object(thing) for thing in self.things if thing.listed))
+        areas = tuple(MapArea(area.name, area.corners, area.capacity) for area in self.areas)
+        return ObjectMap(tuple(self._map_object(thing) for thing in self.things if thing.listed), areas)
 
     def _map_object(self, thing: Thing) -> MapObject:
         base = self.base_of(thing)
@@ -281,7 +283,8 @@ class WorldFile(Entry, TextFile):
     def _check_unique(self, file: str) -> None:
         seen: set[str] = set()
         things, robots = [thing.name for thing in self.things], [robot.name for robot in self.robots]
-        for kind, names in (("things", things), ("robots", robots)):
+        areas = [area.name for area in self.areas]
+        for kind, names in (("things", things), ("robots", robots), ("areas", areas)):
             for index, name in enumerate(names):
                 if name in seen:
                     raise FileFormatError(file, f"{kind}[{index}].name", f"{name!r} is used twice")

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from parley.messages.status import PlanProposal, PlanStep, PlanUpdate
-from parley.messages.team import OVER, MissionInfo, MissionPart, PartState
+from parley.messages.team import OVER, WAITS_FOR, MissionInfo, MissionPart, PartState
 from parley.sentences import Sentence, listed, sentence, together
 
 __all__ = ["KEPT", "MissionBook", "Part"]
@@ -41,7 +41,7 @@ class Part:
         """Steps of it are in the plan of its robot."""
         self.first = self.first or frozenset(step.id for step in own)
         self.seen |= {step.id: step for step in own}
-        shown = [step for step in own if not step.for_next]
+        shown = [step for step in own if not step.for_next and step.action.name != WAITS_FOR]
         done = sum(step.state == "finished" for step in shown)
         current = next((step for step in own if step.state not in _ENDED | {"queued"}), None)
         if current is not None and current.for_next:
@@ -55,6 +55,8 @@ class Part:
             self.set("held", **told)
         elif update.state == "paused":
             self.set("paused", **told)
+        elif current is not None and current.action.name == WAITS_FOR:
+            self.set("waiting", **told)
         elif current is not None or done:
             self.set("running", **told)
         else:
@@ -63,10 +65,11 @@ class Part:
     def end(self, own: Sequence[PlanStep] = (), **told: object) -> None:
         """Nothing more comes of it; what was not done is named."""
         here = {step.id for step in own}
-        left = [step for step in own if step.state != "finished"]
+        left = [step for step in own if step.state != "finished" and step.action.name != WAITS_FOR]
         spare = [s.action.name for s in own if s.state == "finished" and s.id not in self.first]
         for identity, step in self.seen.items():
-            if identity in here or identity not in self.first or step.state == "finished":
+            over = step.state == "finished" or step.action.name == WAITS_FOR
+            if identity in here or identity not in self.first or over:
                 continue
             if step.action.name in spare:
                 spare.remove(step.action.name)
@@ -180,8 +183,6 @@ class MissionBook:
             part.see(own, update)
         elif part.info.state in OVER or waits:
             return
-        elif part.info.order in update.later:
-            part.set("waiting", proposal="")
         elif part.seen or part.info.state in ("asked", "waiting") or (
             part.info.state == "interrupted" and update.steps
         ):  # fmt: skip

@@ -24,7 +24,7 @@ from parley.umrf.catalogue import Catalogue
 from parley.umrf.check import resolve
 from parley.umrf.flow import Effect, Flow, FlowNode
 from parley.umrf.graph_index import GraphSpec
-from parley.umrf.model import ENDED, NOTHING, Graph, GraphState, NodeState, Result
+from parley.umrf.model import ENDED, NOTHING, Graph, GraphState, Node, NodeState, Result
 from parley.umrf.node_run import Ended, Inside, NodeRun
 from parley.umrf.other_runs import RemoteRun, SubgraphRun
 from parley.umrf.remote import Peers, RemoteEnd, RemoteSpec
@@ -291,6 +291,16 @@ class GraphRun:
     def snapshot(self) -> Graph:
         """The graph as it is now, with states, logs and the data that is there (4.3)."""
         return replace(self._graph, nodes=self._flow.snapshot(), state=self.state)
+
+    @property
+    def nodes(self) -> Iterator[tuple[Node, NodeState]]:
+        """Its nodes in their order, each with the state it has."""
+        return ((item.node, item.state) for item in self._flow.nodes.values())
+
+    def node(self, name: str) -> Node | None:
+        """The node of that full name, or None."""
+        item = self._flow.nodes.get(name)
+        return item.node if item is not None else None
 
     def outputs(self, node: str) -> Mapping[str, Any]:
         """What the node of that full name gave in its last run, by flat name."""

@@ -10,7 +10,8 @@
 Ours, optional: `aliases` (other names people use for it) and `front` (the direction its open or usable side
 faces, radians in the map frame: stand there to use it) or `stand` (`x`, `y`, `yaw`: where exactly a robot
 stands for it, and which way it looks); beside `items`, `areas`: rooms and the like, each with a `name` and
-its `corners`, for people to see on the map and to send robots to.
+its `corners`, for people to see on the map and to send robots to; with a `capacity` no more robots than that
+are in it at once.
 """
 
 from __future__ import annotations
@@ -70,6 +71,8 @@ class MapArea:
     name: str
     corners: tuple[tuple[float, float], ...]
     """x, y in the map frame, metres, one after the other around it."""
+    capacity: int | None = None
+    """So many robots may be in it at once: a narrow doorway, a lift, a dock; None: any number."""
 
     @property
     def goal(self) -> MapObject:
@@ -88,6 +91,22 @@ class MapArea:
             if (y > y_m) != (other_y > y_m)
         ]
         return sum(crossed) % 2 == 1
+
+    def gap_m(self, x_m: float, y_m: float) -> float:
+        """From a place to its border; 0 inside."""
+        if self.holds(x_m, y_m):
+            return 0.0
+        sides = zip(self.corners, self.corners[1:] + self.corners[:1], strict=True)
+        return min(_gap_m((x_m, y_m), one, other) for one, other in sides)
+
+
+def _gap_m(place: tuple[float, float], one: tuple[float, float], other: tuple[float, float]) -> float:
+    """From a place to a straight line between two others."""
+    along_x, along_y = other[0] - one[0], other[1] - one[1]
+    length = along_x**2 + along_y**2
+    share = ((place[0] - one[0]) * along_x + (place[1] - one[1]) * along_y) / length if length else 0.0
+    share = min(1.0, max(0.0, share))
+    return math.hypot(one[0] + share * along_x - place[0], one[1] + share * along_y - place[1])
 
 
 class _Coordinates(BaseModel):
@@ -124,6 +143,7 @@ class _Area(BaseModel):
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
     name: str = Field(min_length=1)
     corners: list[tuple[Metres, Metres]] = Field(min_length=3)
+    capacity: int | None = Field(default=None, ge=1)
 
 
 class _File(BaseModel):
@@ -176,7 +196,7 @@ class ObjectMap(TextFile):
             FileFormatError: Names the file and the field.
         """
         parsed = validated(_File, told, file)
-        areas = (MapArea(area.name, tuple(area.corners)) for area in parsed.areas)
+        areas = (MapArea(area.name, tuple(area.corners), area.capacity) for area in parsed.areas)
         return cls(tuple(_objects(parsed, file)), tuple(areas))
 
     def to_json(self) -> dict[str, Any]:
@@ -197,7 +217,9 @@ class ObjectMap(TextFile):
                 body["stand"] = {"x": item.stand.x_m, "y": item.stand.y_m, "yaw": item.stand.yaw_rad}
             items.setdefault(item.class_name, []).append(body)
         areas = [
-            {"name": area.name, "corners": [list(corner) for corner in area.corners]} for area in self.areas
+            {"name": area.name, "corners": [list(corner) for corner in area.corners]}
+            | ({"capacity": area.capacity} if area.capacity is not None else {})
+            for area in self.areas
         ]
         return {"classes": sorted(items), "items": items} | ({"areas": areas} if areas else {})
 

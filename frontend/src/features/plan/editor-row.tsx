@@ -44,7 +44,7 @@ export function EditorRow({ step, catalogue, places, isFirst, isLast, onMove, on
       </div>
       {inputs.length > 0 && (
         <div className={css.inputs}>
-          {inputs.map((input) => (
+          {inputs.filter((input) => about(input.name)?.kind !== 'id').map((input) => (
             <Input key={input.name} input={input} about={about(input.name)} places={places} onChange={(value) => onChange(input.name, value)} />
           ))}
         </div>

@@ -20,6 +20,7 @@ export function rowsOf(parameters: readonly ParameterView[], about: Readonly<Rec
   const rows: Row[] = [];
   const places = new Map<string, Map<string, unknown>>();
   for (const parameter of parameters) {
+    if (about[parameter.name]?.kind === 'id') continue;
     const axis = AXIS.exec(parameter.name);
     const turn = axis ? null : TURN.exec(parameter.name);
     const match = axis ?? turn;

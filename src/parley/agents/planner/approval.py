@@ -123,13 +123,12 @@ class PlanBoard:
         plan: TargetPlan,
         approvals: Approvals,
         held_by: Principal | None = None,
-        later: tuple[str, ...] = (),
     ) -> PlanUpdate | None:
         """The plan as it is to be published, or None if that would say nothing new."""
         before = self._shown.get(plan.target)
         revision = before.revision if before is not None else 0
         changes: dict[str, object] = {
-            "policy": approvals.policy(plan.target), "revision": revision, "held_by": held_by, "later": later,
+            "policy": approvals.policy(plan.target), "revision": revision, "held_by": held_by,
         }  # fmt: skip
         update = self._labelled(plan, before)
         changes["waits"] = tuple(proposal.id for proposal in approvals.of(plan.target))

@@ -9,6 +9,7 @@ from parley.agents.planner import orders
 from parley.agents.planner.asking import SHALL_I, wish_of
 from parley.agents.planner.effects import Effect as PlanEffect
 from parley.agents.planner.effects import Say
+from parley.agents.planner.flow import shifted
 from parley.agents.planner.plan import TargetPlan
 from parley.agents.planner.relay import Relay
 from parley.agents.planner.remembering import memory_change
@@ -33,7 +34,7 @@ class Commands:
     Args:
         node: Whose topics.
         plans: What is known of each robot.
-        relay: Keeps what waits for other robots.
+        relay: Knows who does which order.
         begin_for: Told on whose account a robot acts from now on.
     """
 
@@ -45,15 +46,11 @@ class Commands:
         begin_for: Callable[[str, Principal | None], None],
     ) -> None:
         self._node, self._plans, self._relay, self._begin_for = node, plans, relay, begin_for
-        relay.begin = lambda plan, order, calls, by: self.append(
-            plan, calls, order.model_copy(update={"after": ()}), by
-        )
 
     def effects_of(self, plan: TargetPlan, command: SystemCommand, by: Principal | None) -> list[PlanEffect]:
         """What is to be sent because of a command; memories are everybody's, see `remember`."""
         match command.command:
             case "stop" | "pause":
-                self._relay.interrupt(plan)
                 left = self._plans.left.pause(plan.target)
                 if plan.pending or left:
                     self.hold_for(plan, by)
@@ -81,7 +78,6 @@ class Commands:
 
     def _clear(self, plan: TargetPlan, order: str) -> list[PlanEffect]:
         """Drop all that a robot is to do, or (with an order) only that."""
-        self._relay.drop(plan, order)
         for proposal in self._plans.approvals.of(plan.target):
             if order in ("", proposal.order):
                 self._plans.approvals.drop(proposal.id)
@@ -104,17 +100,19 @@ class Commands:
         Args:
             plan: Of the robot.
             calls: The steps.
-            order: Where they come from; what other robots are to do before is waited for.
+            order: Where they come from; steps that wait for what other robots are to do before come first.
             by: On whose account.
             goes_on: Whether who orders it holds the robot, and no person has held it since.
         """
-        if self._relay.keeps(plan, order, calls, by):
+        waits = self._relay.waits(plan, order, calls, by) if calls else ()
+        if waits is None:
             return
-        still, before = plan.update().state == "paused", [*plan.steps]
+        calls = [*waits, *shifted(calls, len(waits))]
+        still = plan.update().state == "paused"
         if calls:
             self._begin_for(plan.target, by)
         effects = plan.append(calls, order.words, order.id)
-        self._relay.note(order.id, plan, before)
+        self._relay.note(order.id, plan)
         self._plans.send(plan, effects)
         if still and goes_on:
             self._plans.held_by.pop(plan.target, None)

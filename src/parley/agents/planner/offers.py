@@ -60,21 +60,6 @@ class Offers(Approvals):
         self._write(proposal, status, repairs)
         return proposal
 
-    def keep(self, proposal: PlanProposal, status: ActorStatus | None) -> str:
-        """Only write down what a person has said yes to and what waits for something else; its id.
-
-        Args:
-            proposal: Without an id.
-            status: The robot's last heartbeat.
-        """
-        proposal = proposal.model_copy(update={"id": uuid.uuid4().hex})
-        self._write(proposal, status)
-        return proposal.id
-
-    def forget(self, identity: str) -> None:
-        """What was kept waits no more."""
-        self._log.drop(identity)
-
     def _write(self, proposal: PlanProposal, status: ActorStatus | None, repairs: Step | None = None) -> None:
         self._log.keep(
             KeptProposal(

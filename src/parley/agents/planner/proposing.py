@@ -58,11 +58,6 @@ class Proposals:
         self._plans.send(plan, [])
         return proposal
 
-    def keep(self, plan: TargetPlan, order: ChatAction, calls: Sequence[ActionCall]) -> str:
-        """Write down what waits for other robots, so that it is asked about after a restart; its id."""
-        proposal = self._made(plan, order, calls, (), (), "")
-        return self._plans.approvals.keep(proposal, self._plans.presence.get(plan.target))
-
     def _made(
         self,
         plan: TargetPlan,

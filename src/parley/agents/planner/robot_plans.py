@@ -81,10 +81,6 @@ class RobotPlans:
         self.approvals, self.objects = approvals, objects
         self.settle = approvals.drop_settled
         """Forgets what waits for a yes and is over; looked at whenever a plan changes."""
-        self.changed: Callable[[], None] = lambda: None
-        """Called whenever a plan has changed, or a robot has left."""
-        self.later: Callable[[TargetPlan], tuple[str, ...]] = lambda _: ()
-        """The orders of a robot that wait for other robots."""
         self.board = PlanBoard(self.catalogue, objects)
         self.held_by: dict[str, Principal] = {}
         """Who told each robot to stand still, until it goes on."""
@@ -208,9 +204,7 @@ class RobotPlans:
         if not joined and plan is not None and plan.pending:
             text = sentence("I have lost contact with {robot}. Its plan is kept.", robot=robot)
             self.say(robot, text, "error")
-        if not joined and plan is not None:
-            self.changed()
-        elif joined and not self.is_asked(robot):
+        if joined and not self.is_asked(robot):
             self._on_arrival(robot, None)
 
     def _on_arrival(self, robot: str, graphs: Mapping[str, str] | None) -> None:
@@ -265,11 +259,9 @@ class RobotPlans:
         for effect in effects:
             self._sender.send(plan, effect)
         self.settle(plan)
-        held_by, later = self.held_by.get(plan.target), self.later(plan)
-        update = self.board.show(plan, self.approvals, held_by, later)
+        update = self.board.show(plan, self.approvals, self.held_by.get(plan.target))
         if update is not None:
             self._node.publish(topics.PLAN, update)
-        self.changed()
 
     def accept(
         self,

@@ -200,11 +200,15 @@ def _parameter(info: ActionInfo, name: str) -> object:
     return {"type": info.inputs[name], **told} if told else info.inputs[name]
 
 
+def _is_id(info: ActionInfo, name: str) -> bool:
+    return name in info.parameters and info.parameters[name].kind == "id"
+
+
 def _action(info: ActionInfo, givers: Sequence[str]) -> dict[str, Any]:
     shown: dict[str, Any] = {
         "action": info.name,
         "description": _cut(info.description),
-        "parameters": {name: _parameter(info, name) for name in info.inputs},
+        "parameters": {name: _parameter(info, name) for name in info.inputs if not _is_id(info, name)},
     }
     extras: Mapping[str, Any] = {
         "optional": list(info.optional),
