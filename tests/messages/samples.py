@@ -44,6 +44,7 @@ CLAIM = {
     "capacity": {"hall": 1, "door": 2},
     "without": ["B"],
 }
+PASSAGE = {"name": "hall", "robots": ["A"], "lost": ["A"], "waiting": ["B"]}
 POSE = {"x": 1.0, "y": -2.5, "yaw": 3.1}
 MEMORY = {
     "type": "text",
@@ -277,8 +278,10 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
     status.ParameterInfo: PARAMETER,
     status.ActionInfo: ACTION_INFO,
     attendance.Attendance: {"server": "8c1f", "people": 2},
+    passages.PassageClaim: CLAIM,
+    passages.PassageState: PASSAGE,
     passages.PassageList: {
-        "places": [{"name": "hall", "robots": ["A"], "lost": ["A"], "waiting": ["B"]}],
+        "places": [PASSAGE],
         "granted": {"A": "c"},
         "stuck": ["B"],
     },

@@ -22,6 +22,7 @@ from parley.messages import (
     incident,
     map,
     memory,
+    passages,
     principal,
     status,
 )
@@ -36,7 +37,7 @@ every_payload = pytest.mark.parametrize("kind", SAMPLES, ids=lambda kind: str(ki
 
 
 def payload_types() -> set[type[BaseModel]]:
-    modules = (attendance, audit, chat, display, failure, incident, map, memory, principal, status)
+    modules = (attendance, audit, chat, display, failure, incident, map, memory, passages, principal, status)
     exported = [getattr(module, name) for module in modules for name in module.__all__]
     return {item for item in exported if inspect.isclass(item) and issubclass(item, BaseModel)}
 
