@@ -87,6 +87,16 @@ def test_going_to_an_area_is_entering_it_but_one_may_stand_before_a_thing() -> N
     assert judged(book(slow), to(4.1, -1, 5.9, 1)).risky == ()
 
 
+def test_a_look_into_an_area_from_its_edge_is_no_entering() -> None:
+    look = ActionInfo(name="Look", effects=("looks",))
+    edge = PlannedStep(ActionCall(name="NavigateTo"), GO, Place(3.5, 0, "it", (4.1, -1, 5.9, 1)))
+    within = PlannedStep(ActionCall(name="NavigateTo"), GO, Place(5, 0, "it", (4.1, -1, 5.9, 1)))
+    seen = PlannedStep(ActionCall(name="Look"), look)
+    assert judged(book(STORE), edge, seen).forbidden == ()
+    assert judged(book(STORE), edge, go(0, 0), seen).forbidden
+    assert judged(book(STORE), within, seen).forbidden
+
+
 def test_who_stands_in_a_zone_may_leave_it_but_not_come_back() -> None:
     inside = book(STORE | {"rectangle": (-1, -1, 1, 1)})
     assert judged(inside, go(3, 0)).forbidden == ()

@@ -136,6 +136,8 @@ class _Walk:
     here: Point | None
     path: WayPlanner | None
     at: datetime = field(init=False)
+    to_look: bool = False
+    """Whether the step that is judged only leads to where the next one looks from."""
     number: int = 1
     """Of the step, as people count: finding out where something is belongs to the step that goes there."""
     length_m: float = 0.0
@@ -204,8 +206,8 @@ class _Walk:
         inside = shape.distance_m(way) < self.facts.radius_m
         # Who stands in there already may leave.
         inside[: int(np.argmin(inside)) if not inside.all() else 0] = False
-        # One may stand before a thing and be there; of an area that is entering it, even if one only sees it.
-        entered = inside[-1] or (rule.kind != "slow" and place.is_zone(shape))
+        # One may stand before a thing and be there; of an area that is entering it, but for a look into it.
+        entered = inside[-1] or (rule.kind != "slow" and place.is_zone(shape) and not self.to_look)
         if not (entered or inside.any()):
             return
         words = {
@@ -279,6 +281,8 @@ def judge_plan(
     infos = [step.info for step in steps if step.info is not None]
     searches = for_next([step.call for step in steps], infos)
     for index, (step, search) in enumerate(zip(steps, searches, strict=True)):
+        behind = steps[index + 1].info if index + 1 < len(steps) else None
+        walk.to_look = behind is not None and "looks" in behind.effects
         walk.step(index, step)
         walk.number += not search
     walk.limits(walk.number - 1, rules.unusual_distance_m)
