@@ -52,6 +52,10 @@ def fields(rule: Rule) -> dict[str, Any]:
         ("never go into the storeroom", STORE | {"robots": ("Ada",)}),
         ("Please never drive into the storeroom!", STORE | {"robots": ("Ada",)}),
         ("No robot may enter the storeroom", STORE),
+        ("nobody should go into the storeroom today", STORE),
+        ("I'd rather you didn't go into the storeroom", STORE | {"robots": ("Ada",)}),
+        ("I don't want you to go into the storeroom", STORE | {"robots": ("Ada",)}),
+        ("the hall is off limits today", {"kind": "keep_out"} | HALL),
         ("Bob must not go into the storeroom", STORE | {"robots": ("Bob",)}),
         ("Ada and Bob must never enter the storeroom on weekends",
          STORE | {"robots": ("Ada", "Bob"), "when": {"days": ("sat", "sun")}}),
@@ -109,7 +113,8 @@ def test_what_is_told_becomes_a_rule(text: str, expected: dict[str, Any]) -> Non
         "nobody may go into the hall without asking Kim",
         "ask me later", "what rules are there?", "drive faster", "stop",
         "The cup is in the hall, nobody wants it", "no, not faster", "remember that the hall is green",
-        "never", "nobody", "must not", "Ada", "", "x" * 1000,
+        "never", "nobody", "must not", "Ada", "", "x" * 1000, "the red door is closed",
+        "I'd rather you didn't hurry", "the shop is closed",
     ],
 )  # fmt: skip
 def test_everything_else_is_no_rule(text: str) -> None:

@@ -60,15 +60,25 @@ _SPEED: Final = re.compile(
 )
 _NEVER: Final = re.compile(
     r"^(?:(?P<all>nobody|no one|no robots?|none of you|keegi|ükski robot)"
-    r"(?: (?:may|must|shall|is allowed to|ei tohi|ei sõida|ei lähe))?(?: ever| kunagi)?"
-    r"|(?P<you>never|you (?:must|may|shall) (?:not|never)|you are (?:not|never) allowed to"
+    r"(?: (?:may|must|shall|should|ought to|is to|has to|needs to|is allowed to|ei tohi|ei sõida|ei lähe))?"
+    r"(?: ever| kunagi)?"
+    r"|(?P<you>never|you (?:must|may|shall|should|ought to) (?:not|never)|you shouldn't|you mustn't"
+    r"|you are (?:not|never) allowed to"
+    r"|(?:i(?:'d| would) (?:rather|prefer it if)|i don't want|it would be better if)"
+    r" you (?:to (?:not|never)|not to|didn't|did not|don't|never)|i (?:don't|do not) want you to"
     r"|ära kunagi|ärge kunagi|sa ei tohi(?: kunagi)?)"
-    r"|(?P<keep>keep out of|stay out of|hoia eemale|hoidke eemale)"
-    r"|(?P<who>[\w ]+?) (?:must|may|shall) (?:not|never)(?: ever)?"
+    r"|(?P<keep>(?:keep|stay) (?:out of|away from|clear of|off)|hoia eemale|hoidke eemale)"
+    r"|(?P<who>[\w ]+?) (?:must|may|shall|should) (?:not|never)(?: ever)?"
     r"|(?P<whom>[\w ]+?) (?:is|are) (?:not|never) allowed to"
     r"|(?P<kes>[\w ]+?) ei tohi(?: kunagi)?)\s+(?P<rest>.+)$"
 )
+_CLOSED: Final = re.compile(
+    r"^(?P<place>.+?) (?:is|are) (?:off[- ]limits|out of bounds|closed(?: off)?|a no[- ]go (?:area|zone)|"
+    r"cordoned off|sealed off)(?: (?:to|for) (?:you|robots|everybody|everyone|all))?$"
+)
+"""Only of parts of the map: a closed door is a door."""
 _UNASKED: Final = re.compile(r" without (?:asking|my permission|permission)(?: \w+)*$")
+_AREAS: Final = frozenset({"area", "zone", "room"})
 _INTO: Final = re.compile(
     r"^(?:(?:go|goes|drive|drives|come|comes|move|moves|be|sõita|sõida|minna|mine|minema|tulla)\s+)?"
     r"(?:(?:in|into|inside|to|through|near|on|at|by|enter|enters)\s+)+(?P<place>.+)$"
@@ -247,6 +257,13 @@ def _forbidden(said: str, world: _World) -> dict[str, Any] | NotUnderstood | Non
             "never "
         )
         return _asked(f"always ask before {wish}", world) if wish and not subject.strip() else None
+    if closed := _CLOSED.match(said):
+        name = re.sub(r"^(?:the|our) ", "", closed["place"])
+        areas = [item for item in world.places if item.area is not None or item.class_name in _AREAS]
+        known = {label.casefold() for item in areas for label in (item.description, *item.aliases)}
+        known |= {area.name.casefold() for area in world.areas}
+        shut = _area(name, world) if name in known else None
+        return {"kind": "keep_out", "robots": ()} | shut if isinstance(shut, dict) else None
     found = _NEVER.match(said)
     if found is None:
         return None
