@@ -218,3 +218,42 @@ async def test_a_look_goes_with_the_way_to_what_is_looked_at(message: str, looks
     answer = await ENGINE.interpret(said)
     assert [str(c.input_parameters["what"].value) for c in answer.queue if c.name == "Look"] == looks
     assert goals(answer) == ["lamp", "gate"]
+
+
+@pytest.mark.parametrize(
+    ("message", "words"),
+    [
+        ("what comes after the gate?", "After that: go to the desk; go to the lamp."),
+        ("where do you go before the desk?", "Before that: go to the box; go to the gate."),
+        ("what's next after the lamp", "Nothing is planned after that."),
+        ("what comes before the box?", "Nothing comes before that."),
+        ("what about after the red crate?",
+         "That is not in my plan. Left to do: go to the box; go to the gate; go to the desk; "
+         "go to the lamp."),
+    ],
+)  # fmt: skip
+async def test_what_stands_beside_a_step_of_the_plan_can_be_asked(message: str, words: str) -> None:
+    answer = await ENGINE.interpret(given(message, "box", "gate", "desk", "lamp"))
+    assert (answer.message_response, answer.queue, answer.system_cmd) == (words, (), ())
+
+
+@pytest.mark.parametrize(
+    "message", ["go on but skip the gate", "continue, but leave out the gate", "carry on without the gate"]
+)
+async def test_going_on_with_less_changes_the_plan_and_leaves_going_on_to_its_own_word(message: str) -> None:
+    running = given(message, "box", "gate", "desk")
+    held = replace(running, dialogue=replace(running.dialogue, plan="paused"))
+    for situation, ends in ((running, "gate."), (held, "Say “carry on” when I should go on.")):
+        answer = await ENGINE.interpret(situation)
+        assert dropped(answer) == {1, 2} and goals(answer) == []
+        assert answer.message_response.endswith(ends)
+
+
+@pytest.mark.parametrize(
+    "message",
+    ["before you go on, go by the lamp", "go by the lamp before you carry on",
+     "before leaving, go to the lamp", "before you do anything else, go to the lamp"],
+)  # fmt: skip
+async def test_what_is_to_be_done_before_going_on_comes_before_the_rest(message: str) -> None:
+    answer = await ENGINE.interpret(given(message, "box", "gate"))
+    assert goals(answer) == ["lamp", "box", "gate"], answer.message_response

@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from parley.language.builtin.clauses import Clause
-from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.lexicon import Lexicon, lemmas
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.spans import Parse
+from parley.language.control_grammar import composed
 
 __all__ = ["Condition", "If", "Node", "Orders", "Part", "Unclear", "arranged", "order_wishes"]
 
@@ -198,6 +199,8 @@ class _Arranger:
         )
         if words <= passed and part.clause.link != "before":
             return None
+        if part.clause.link == "before" and _goes_on(part):
+            return None
         node = Orders(part, is_order=True)
         if part.clause.link == "when" and not words & self.lexicon.classes["arriving"]:
             return Unclear(
@@ -224,6 +227,16 @@ class _Arranger:
             return Unclear(f"What does “{part.text}” belong to?")
         what.limits.append(part)
         return None
+
+
+def _goes_on(part: Part) -> bool:
+    """Whether a clause only speaks of what the robot does anyway: "before you go on", "before leaving"."""
+    words = [word for word in part.low if word.isalpha() and word not in ("you", "we", "do")]
+    first = lemmas(words[0]) if words else ()
+    return {*words} <= _ANYTHING or any(composed((lemma, *words[1:])) == "start" for lemma in first)
+
+
+_ANYTHING = frozenset({"leave", "leaving", "anything", "everything", "else", "all", "set", "off", "out"})
 
 
 def arranged(parts: Sequence[Part], lexicon: Lexicon) -> list[Node] | Unclear:

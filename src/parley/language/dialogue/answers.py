@@ -130,6 +130,24 @@ def _left(situation: Situation, about: str) -> str:
     return f"Left to do: {'; '.join(step_words(step.label) for step in left)}."
 
 
+def _beside(situation: Situation, about: str) -> str:
+    """What comes behind or before a step that is named; empty if there is no plan to speak of."""
+    side, _, name = about.partition(" ")
+    left, proposal = _steps_left(situation), situation.dialogue.proposal
+    plan = [step_words(step.label) for step in left]
+    plan = plan or ([step_words(line) for line in proposal.lines] if proposal is not None else [])
+    wanted = _stems(name)
+    if not plan or not wanted:
+        return _left(situation, "") if plan else ""
+    meant = [at for at, words in enumerate(plan) if wanted <= _stems(words)]
+    if not meant:
+        return f"That is not in my plan. Left to do: {'; '.join(plan)}."
+    found = plan[: meant[0]] if side == "before" else plan[meant[-1] + 1 :]
+    if not found:
+        return "Nothing comes before that." if side == "before" else "Nothing is planned after that."
+    return f"{'Before' if side == 'before' else 'After'} that: {'; '.join(found)}."
+
+
 def _did(situation: Situation, about: str) -> str:
     begun = _visible(situation.dialogue.deeds)
     if not begun:
@@ -432,7 +450,7 @@ _TOPICS: Final[dict[str, Callable[[Situation, str], str]]] = {
     "where_are_you": _where, "been": _been, "there_yet": _there_yet, "going_before": _going_before,
     "where_going": _where_going, "why_stopped": _why_stopped, "waiting_for": _waiting, "why_not": _why_not,
     "why_not_go": _why_not_go, "why": _why, "what_doing": _doing, "what_left": _left, "what_did": _did,
-    "before_stop": _before_stop,
+    "before_stop": _before_stop, "beside_step": _beside,
     "what_seen": _seen, "what_else_seen": _else, "seen_thing": _seen_thing, "how_long": _how_long,
     "battery": _battery, "able": _able, "name": _name, "time": _time, "told_about": _told_about,
     "told_all": _told_all, "difference": _difference,

@@ -52,7 +52,9 @@ _TAKING_BACK: Final = re.compile(
     r"leave (?:it|that)|drop (?:it|that)|cancel (?:it|that)|change of plan)\b"
 )
 _FRONT: Final = re.compile(
-    r"\b(?:first|before (?:all )?that|before you (?:do|go)|beforehand|on the way|on your way)\b"
+    r"\b(?:first|before (?:all )?that|before you (?:do|go)|beforehand|on the way|on your way|before "
+    r"(?:you |we )?(?:go(?:ing)? on|carry(?:ing)? on|mov(?:e|ing) on|continu(?:e|ing)|proceed(?:ing)?|"
+    r"resum(?:e|ing)|leav(?:e|ing)|anything|everything))\b"
 )
 _INSTEAD: Final = re.compile(
     r"\b(?:no|nope|not|instead|rather|scratch|forget|(?:i|we) (?:mean|meant)|make (?:it|that)|never ?mind|"

@@ -17,6 +17,7 @@ from parley.language.builtin.reply import said as words_for
 from parley.language.builtin.saying import which_one
 from parley.language.builtin.structure import Part
 from parley.language.builtin.tokens import Token, tokenize
+from parley.language.control import control_of
 from parley.language.dialogue.answers import answer, differences
 from parley.language.dialogue.changes import (
     Change,
@@ -170,6 +171,8 @@ def _about_what_was_said(
         return repeated
     if (refused := _beyond(situation, reading, tokens, lexicon)) is not None:
         return refused
+    if (less := _on_with_less(situation, again)) is not None:
+        return less
     order = due(situation.message, situation.dialogue.waiting)
     if order and _ordered(late := again(order)) is not None:
         return late
@@ -184,6 +187,23 @@ def _about_what_was_said(
     if change is None and situation.dialogue.orders:
         change = followed(situation, tokens, lexicon, situation.dialogue.orders[-1])
     return _edit(change, situation) if change is not None else None
+
+
+def _on_with_less(situation: Situation, again: Again) -> Edit | None:
+    """For "go on, but skip the desk": the plan is changed; going on has a word of its own, for people."""
+    for joint in _JOINT.finditer(situation.message):
+        first, rest = situation.message[: joint.start()], situation.message[joint.end() :]
+        if control_of(first, situation.robots) == "start":
+            made = again(rest)
+            still = situation.dialogue.plan in ("paused", "held")
+            if not isinstance(made, Edit) or made.do is not None or made.change.add:
+                return None
+            said = f"{made.change.said} Say “carry on” when I should go on." if still else made.change.said
+            return replace(made, change=replace(made.change, said=said))
+    return None
+
+
+_JOINT: Final = re.compile(r"[\s,;.]+(?:(?:but|and|only|just|then)\W+)*(?=\w)", re.IGNORECASE)
 
 
 def _ordered(made: Decision) -> Do | None:
@@ -275,24 +295,29 @@ def afterwards(
         proposal = situation.dialogue.proposal
         if proposal is not None and proposal.why and not situation.queue:
             return Edit(Change(), made, proposal.id)  # what was only offered gives way to an order
+        if (between := _in_between(made, situation)) is not None:
+            return between
         change = change_of(situation, tokens, lexicon, orders=True)
         if change is None and situation.queue and is_emergency(situation):
             change = before_all(situation)
-        if change is None and (between := _in_between(made, situation)) is not None:
-            return between
         return made if change is None else _edit(change, situation, made)
     bare = plain(tokens, (situation.robot,))
     if isinstance(made, Ask) and not made.offer and (hands := _handless(situation, reading)):
         return replace(made, question=f"{hands} {made.question}")
     if isinstance(made, Ask) and (asked := _asked_again(made, situation, reading, tokens)) is not None:
         return asked
-    if isinstance(made, Ask | Answer) and _SOCIAL.fullmatch(bare):
+    offers = isinstance(made, Ask) and made.offer
+    if isinstance(made, Ask | Answer) and not offers and _SOCIAL.fullmatch(bare):
         return Answer(
             "You are welcome."
             if bare.startswith(("thank", "cheers", "that"))
             else "Hello. What can I do for you?"
         )
-    if isinstance(made, Ask | Answer) and (fact := other_fact(situation, reading, bare)) is not None:
+    if (
+        isinstance(made, Ask | Answer)
+        and not offers
+        and (fact := other_fact(situation, reading, bare)) is not None
+    ):
         return Remember((fact,))
     return made
 
@@ -306,7 +331,8 @@ def _in_between(made: Do, situation: Situation) -> Decision | None:
     """An order that is to come before or after a place of the plan: put in there; that is not done twice."""
     said, plan = _AROUND.search(situation.message), visits(situation)
     shown = [deed for deed in made.deeds if not deed.hidden and deed.frame == "GO"]
-    if said is None or not plan or len(shown) < 2 or any(deed.check for deed in made.deeds):
+    several = sum(not deed.hidden for deed in made.deeds) > 1
+    if said is None or not plan or not (several and shown) or any(deed.check for deed in made.deeds):
         return None
     edge = shown[-1] if said["before"] else shown[0]
     first = made.deeds.index(edge) - (len(made.deeds) > 1 and made.deeds[made.deeds.index(edge) - 1].hidden)

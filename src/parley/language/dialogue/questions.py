@@ -76,7 +76,9 @@ def question_of(bare: str) -> Question | None:
     for shape in shapes():
         for pattern in shape.patterns:
             if (found := pattern.fullmatch(bare)) is not None:
-                return Question(shape.topic, (found.groupdict().get("about") or "").strip())
+                parts = found.groupdict()
+                words = [parts.get("side"), parts.get("about")]
+                return Question(shape.topic, " ".join(word.strip() for word in words if word))
     return None
 
 
