@@ -59,9 +59,7 @@ class Tagger:
 
     def meanings(self, texts: Sequence[str]) -> Matrix:
         """What each text means as a whole: rows of length one, so that products are likenesses."""
-        known = {output.name for output in self.session.get_outputs()}
-        name = "meaning" if "meaning" in known else "described"  # weights of before it was written
-        rows = np.array([self._whole(name, text.lower()) for text in texts], dtype=np.float32)
+        rows = np.array([self._whole("meaning", text.lower()) for text in texts], dtype=np.float32)
         rows = rows - rows.mean(-1, keepdims=True)
         units: Matrix = rows / np.linalg.norm(rows, axis=-1, keepdims=True)
         return units
@@ -93,5 +91,8 @@ def shipped_tagger() -> Tagger:
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = 1
     options.inter_op_num_threads = 1
-    session = onnxruntime.InferenceSession((folder / "tagger.onnx").read_bytes(), options)
+    with resources.as_file(
+        folder / "tagger.onnx"
+    ) as file:  # read from a copy in memory it takes that as well
+        session = onnxruntime.InferenceSession(file, options)
     return Tagger(session, WordPiece.of((folder / "vocabulary.txt").read_text(encoding="utf-8")))
