@@ -272,7 +272,7 @@ class Engines(OpenedTogether):
         rules.know(name, self._fleet.facts(name))
         robot = self.robots[name] = self._fleet.robot(name, rules)
         services = await enter(ContextServices(name, transport))
-        turn = Turn(robot, lambda: self.objects.areas, clock)
+        turn = Turn(robot, lambda: view.objects.areas, clock)
         hears = await transport.subscribe(topics.PASSAGES, partial(_hear, turn))
         stack.push_async_callback(hears.close)
         unfinished = Unfinished(name, [was for was in journal.interrupted if was.actor == name])

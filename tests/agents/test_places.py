@@ -198,6 +198,16 @@ async def test_a_whole_object_map_takes_the_place_of_what_was_there() -> None:
         assert await it.names() == {"cup"}
 
 
+async def test_a_narrow_room_stays_narrow_when_it_is_called_otherwise() -> None:
+    async with crew() as it:
+        corners = [list(corner) for corner in LAB.corners]
+        narrow = {"classes": [], "items": {}, "areas": [{"name": "lab", "corners": corners, "capacity": 1}]}
+        await it.ask(what="load", whole=narrow)
+        assert (await it.ask(was=LAB, put=LAB.model_copy(update={"name": "bay"}))).problem == ""
+        kept = (await it.ask(what="whole")).whole
+        assert [(area["name"], area["capacity"]) for area in kept["areas"]] == [("bay", 1)]
+
+
 async def test_what_a_robot_saw_is_put_on_the_map_or_not() -> None:
     async with crew() as it:
         sees = WorldView(it.system.engines, "A", it.system.engines.occupancy("A"))

@@ -233,6 +233,8 @@ def _weighed(change: PlaceChange, known: ObjectMap, robots: Sequence[str]) -> _W
     put = _place(change.put)
     if isinstance(put, MapObject) and not put.id:
         put = replace(put, id=new_id(put.description, known.objects))
+    if isinstance(put, MapArea) and isinstance(was, MapArea):  # how many have room in it nobody draws
+        put = replace(put, capacity=was.capacity)
     if problem := _problem(put, robots):
         return PlaceChanged(problem=problem)
     renamed = was is None or names_of(was)[0] != names_of(put)[0]
