@@ -33,6 +33,8 @@ class Sourced:
     installed: Path = Path("/opt/ros")
     suffix: str = field(default_factory=lambda: str(sysconfig.get_config_var("EXT_SUFFIX")))
     """How names of compiled modules end that this Python can load."""
+    packages: Sequence[str] = PACKAGES
+    """Whose messages are needed."""
 
     def findings(self) -> Iterator[Finding]:
         """What is wrong, the first thing to mend first, or what is there."""
@@ -83,7 +85,7 @@ class Sourced:
             )
 
     def _packages(self) -> Iterator[Finding]:
-        missing = [name for name in PACKAGES if not self._has("packages", name)]
+        missing = [name for name in self.packages if not self._has("packages", name)]
         if missing:
             text = f"It does not know {', '.join(missing)}."
             yield Finding("ROS 2", "missing", text, _BUILD)

@@ -161,16 +161,23 @@ def transport(
     times: Annotated[int, typer.Option(min=1, help="How many messages of each size.")] = 1000,
     json: JsonOption = False,
 ) -> None:
-    """Messages within this process, and over Zenoh to another one and back."""
+    """Messages within this process, and to another and back: over Zenoh and, where it is sourced, ROS 2."""
     quiet_logs()
-    for figures in on_loop(measure_transport(times)):
-        facts = {
+    report = on_loop(measure_transport(times))
+    for figures in report.figures:
+        facts: dict[str, Any] = {
             "case": figures.backend,
             "size": figures.size,
             "messages_per_s": round(figures.messages_per_s),
             "lost": figures.lost,
         }
-        _show(facts | _latency("one_way_", figures.latency_ms), json)
+        facts |= _latency("one_way_", figures.latency_ms)
+        if compared := report.to_rclpy(figures):
+            facts["latency_to_rclpy"] = round(compared.latency, 2)
+            facts["throughput_to_rclpy"] = round(compared.throughput, 2)
+        _show(facts, json)
+    ros = {"rmw": report.rmw} if report.rmw else {"not_measured": report.without_ros}
+    _show({"case": "ros", **ros}, json)
     _show_machine(json)
 
 
