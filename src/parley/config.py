@@ -337,6 +337,8 @@ class SystemConfig(BaseModel, TextFile):
     """Who is called when a robot waits for a yes or an answer; a later one, when nobody came."""
     approval_of: dict[str, ApprovalPolicy] = Field(default_factory=dict)
     """Robots for which that is otherwise, by name."""
+    temoto: dict[str, str] = Field(default_factory=dict)
+    """Robots whose engine is TeMoto's, by name, and the service that tells about it: `umrf_graph_get`."""
     network: NetworkSettings | None = None
     """Where the parts of the system hear each other; None: within one process."""
     speed: float | None = Field(default=1.0, gt=0)

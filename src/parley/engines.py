@@ -304,6 +304,7 @@ class Engines(OpenedTogether):
                 line=self._line,
                 rules=rules,
                 claim=turn.claim,
+                answers_for_all=not self._config.temoto,
             )
         )
         turn.changed = engine.changed

@@ -28,6 +28,7 @@ from parley.agents.recovery.repair import left_over_text
 from parley.agents.rules.lookout import Lookout
 from parley.agents.rules.rules import RuleNode
 from parley.agents.sites import Sites
+from parley.agents.temoto import TemotoActors
 from parley.clock import Clock
 from parley.config import SystemConfig
 from parley.gate.audit_store import AuditStore
@@ -172,6 +173,8 @@ class Nodes(OpenedTogether):
         incidents = await self._open_talk(stack, RuleTalk(self.rules, keeper, self.sites.areas))
         # Only now: whoever is told a plan may answer at once, and has to be heard.
         await enter(self._speaking(planner))
+        if config.temoto:
+            await enter(TemotoActors(transport, clock, config.temoto))
         await enter(self._speaking(Lookout(transport, clock)))
         await enter(Passages(transport, clock))
         await enter(Batteries(transport, self._tell_for))

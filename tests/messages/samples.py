@@ -287,6 +287,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
     },
     status.ActorStatus: {
         "actor": "A",
+        "engine": "temoto",
         "state": "running",
         "sequence": 3,
         "pose": POSE,

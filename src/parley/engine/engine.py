@@ -103,6 +103,8 @@ class ActionEngine(OpenedTogether):
         rules: By what `admit` and the robot's drive go; filled from what is told here, before the commands
             that are told later. None: nothing is heard.
         claim: Tells what the robot wants of places that only so many may be in.
+        answers_for_all: Whether it answers `umrf_graph_get` too if no other engine does; that of TeMoto has
+            no other name to answer by.
     """
 
     def __init__(
@@ -123,6 +125,7 @@ class ActionEngine(OpenedTogether):
         line: StopLine | None = None,
         rules: RuleBook | None = None,
         claim: Callable[[], PassageClaim | None] = lambda: None,
+        answers_for_all: bool = True,
     ) -> None:
         super().__init__()
         self.actor = actor
@@ -130,7 +133,7 @@ class ActionEngine(OpenedTogether):
         self._transport, self._catalogue, self._clock = transport, catalogue, clock
         self._journal, self._rules, self._claim = journal, rules, claim
         self._robot, self._heartbeat_s = robot, heartbeat_s
-        self._own_line = line is None
+        self._own_line, self._answers_for_all = line is None, answers_for_all
         self._line = line or StopLine()
         self._motions = Motions(clock, self._ignored)
         self._make_context = make_context
@@ -227,6 +230,8 @@ class ActionEngine(OpenedTogether):
     async def _serve(self, stack: AsyncExitStack) -> None:
         own = await self._transport.serve(topics.actor_graph_get(self.actor), self._graph_get)
         stack.push_async_callback(own.close)
+        if not self._answers_for_all:
+            return
         try:
             shared = await self._transport.serve(topics.GRAPH_GET, self._graph_get)
         except UnavailableError:  # another engine of this transport has it; ours is reached by its own name

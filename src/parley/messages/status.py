@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Literal
+from typing import Any, Final, Literal
 
 from pydantic import Field, model_validator
 
@@ -14,6 +14,7 @@ from parley.messages.plain import LineText, ShownText
 from parley.messages.principal import Principal
 
 __all__ = [
+    "NOT_TAKEN",
     "ActionInfo",
     "ActorStatus",
     "GraphEvent",
@@ -112,6 +113,8 @@ class ActorStatus(Payload):
     """`/parley/actor_status`: heartbeat of one engine."""
 
     actor: str
+    engine: Literal["parley", "temoto"] = "parley"
+    """Whose it is: one of TeMoto tells whole graphs only, and has neither events nor an emergency stop."""
     state: Literal["idle", "running", "paused", "stopped", "leaving"] = "idle"
     """`stopped`: latched by an emergency stop."""
     sequence: int = 0
@@ -315,6 +318,10 @@ class StopReport(Payload):
     three: `at_rest`: it stands, measured; `moving`: it does not stand in time (`at_rest` may still follow);
     `silent`: it does not answer. Of whom no report comes in time, nobody knows either: it does not answer.
     `reset`: it may move again."""
+
+
+NOT_TAKEN: Final = "not_taken"
+"""Code of a rejection: asked for the graph that it was sent, an engine does not have it."""
 
 
 class RejectionProblem(Payload):

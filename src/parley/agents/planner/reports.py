@@ -22,6 +22,7 @@ from parley.agents.planner.steps import (
 from parley.agents.planner.sync import Sync
 from parley.errors import FailureCode
 from parley.messages.failure import FailureReport
+from parley.messages.status import NOT_TAKEN
 from parley.sentences import sentence
 from parley.umrf.model import ACTIVE, Graph, GraphState, Node, NodeState, Response, Result
 
@@ -139,7 +140,15 @@ class Reports:
                 return []  # a step began just before it was dropped; it is ended
         elif command == "pause":
             self._plan.pause_wanted = False
-        return self._kept(command) if latched else [Say(_UNCHANGED, "error")]
+        return self._kept(command) if latched else [Say(self._unchanged(codes), "error")]
+
+    def _unchanged(self, codes: Collection[str]) -> str:
+        if NOT_TAKEN not in codes:
+            return _UNCHANGED
+        return sentence(
+            "{robot} has not begun, and does not say why. Perhaps it cannot do one of the steps.",
+            robot=self._plan.target,
+        )
 
     def _kept(self, command: str) -> list[Effect]:
         """After an emergency stop nothing is sent, and refused, again before somebody says to go on."""

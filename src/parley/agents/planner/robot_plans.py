@@ -217,7 +217,8 @@ class RobotPlans:
             self.send(plan, plan.reports.on_return(status.graphs if graphs is None else graphs))
 
     def _speaks_parley(self, target: str) -> bool:
-        return self.presence.get(target) is not None
+        status = self.presence.get(target)
+        return status is not None and status.engine == "parley"
 
     # -- their plans -----------------------------------------------------------------------------------
 
