@@ -6,6 +6,8 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from typing import Any
 
+import pytest
+
 from parley.agents.temoto import TemotoActors
 from parley.clock import WallClock
 from parley.messages import ros, topics
@@ -24,8 +26,9 @@ class TemotoEngine(ThesisEngine):
     def __init__(self, transport: LocalTransport, actor: str, body: Body) -> None:
         super().__init__(transport, actor, body)
         self._catalogue = actions_of(body)
-        self.refuses = self.is_silent = False
-        """Whether it takes no command; whether all its feedback is lost."""
+        self.refuses = self.keeps = self.is_silent = False
+        """Whether it takes no command; has it what it refused; is all its feedback lost."""
+        self._kept: list[str] = []
 
     async def open(self) -> None:
         await super().open()
@@ -35,11 +38,13 @@ class TemotoEngine(ThesisEngine):
     async def _tell(self, _: ros.UmrfGraphGetRequest) -> ros.UmrfGraphGetResponse:
         actions = tuple(write_descriptor(spec) for spec in self._catalogue)
         held = tuple(write_graph(run.snapshot()) for run in self._runs.all)
-        return ros.UmrfGraphGetResponse(actions, (), held)
+        return ros.UmrfGraphGetResponse(actions, (), (*held, *self._kept))
 
     def _ours(self, message: Any, command: Callable[[], object]) -> None:
         if not self.refuses:
             super()._ours(message, command)
+        elif self.keeps and isinstance(message, ros.UmrfGraphStart):
+            self._kept.append(message.umrf_graph_json)
 
     def _observed(self, run: GraphRun, transition: Transition) -> None:
         if not self.is_silent:
@@ -74,9 +79,10 @@ async def test_what_an_engine_of_temoto_can_do_is_known_while_it_is_there() -> N
         assert [status.sequence for status in told] == sorted({status.sequence for status in told})
 
 
-async def test_a_start_that_it_refuses_in_silence_is_told_to_the_operator() -> None:
+@pytest.mark.parametrize("keeps", [False, True])
+async def test_a_start_that_it_refuses_in_silence_is_told_to_the_operator(keeps: bool) -> None:
     async with with_temoto() as (party, temoto, body):
-        temoto.refuses = True
+        temoto.refuses, temoto.keeps = True, keeps
         party.order(look("box"), target="Z")
         await party.hears("Z has not begun, and does not say why.")
         await party.until(lambda: party.steps("Z") == ["stopped"])

@@ -35,7 +35,7 @@ from parley.transport.zenoh import ZenohTransport
 from parley.transport.zenoh.definitions import of_release
 from parley.world.geometry import Pose2D
 from tests.sim.worlds import two_rooms
-from tests.transport.backends import free_port, until
+from tests.transport.backends import NEEDS_ROS, free_port, ros2_node, until
 
 ROOT = Path(__file__).parent.parent.parent
 TOPICS = RosTopics(emergency="e_stop", namespace="A")
@@ -163,6 +163,8 @@ async def networks(
         return lambda: RosbridgeTransport(f"ws://127.0.0.1:{cable.port}"), RosbridgeTransport(
             f"ws://127.0.0.1:{port}", look_s=0.1
         )
+    if kind == "ros2":
+        return lambda: ros2_node("ours", look_s=0.1), ros2_node("theirs", look_s=0.1)
     await link.run(cable.__aenter__())
     stack.push_async_callback(lambda: link.run(cable.__aexit__()))
     definitions = (of_release(release),)
@@ -180,7 +182,12 @@ def ahead(robot: Nav2Robot, metres: float) -> Pose2D:
 
 @pytest.mark.parametrize(
     ("kind", "release"),
-    [("local", "jazzy"), ("zenoh", "humble"), ("rosbridge", "lyrical")],
+    [
+        ("local", "jazzy"),
+        ("zenoh", "humble"),
+        ("rosbridge", "lyrical"),
+        pytest.param("ros2", "jazzy", marks=NEEDS_ROS),
+    ],
 )
 async def test_it_drives_to_a_place_and_tells_how_far_it_is(kind: str, release: Release) -> None:
     remaining: list[float] = []
@@ -194,8 +201,9 @@ async def test_it_drives_to_a_place_and_tells_how_far_it_is(kind: str, release: 
     assert 0 < remaining[-1] < remaining[0] < 1
 
 
-async def test_it_knows_its_map_sees_with_its_laser_and_takes_pictures() -> None:
-    async with stage("zenoh") as on:
+@pytest.mark.parametrize("kind", ["zenoh", pytest.param("ros2", marks=NEEDS_ROS)])
+async def test_it_knows_its_map_sees_with_its_laser_and_takes_pictures(kind: str) -> None:
+    async with stage(kind) as on:
         own, true = on.robot.own_map, on.nav2.robot._map
         assert own is not None and np.array_equal(own.cells, true.cells)
         assert (own.origin_x_m, own.origin_y_m) == (true.origin_x_m, true.origin_y_m)
@@ -207,18 +215,24 @@ async def test_it_knows_its_map_sees_with_its_laser_and_takes_pictures() -> None
 
 
 @pytest.mark.parametrize(
-    ("release", "known"), [("jazzy", {"nav2_code": 208}), ("humble", {"nav2_code": 0, "nav2_says": ""})]
+    ("kind", "release", "known"),
+    [
+        ("local", "jazzy", {"nav2_code": 208}),
+        ("local", "humble", {"nav2_code": 0, "nav2_says": ""}),
+        pytest.param("ros2", "jazzy", {"nav2_code": 208}, marks=NEEDS_ROS),
+    ],
 )
-async def test_where_no_way_leads_it_says_so(release: Release, known: dict[str, Any]) -> None:
-    async with stage("local", release, QUICK) as on:
+async def test_where_no_way_leads_it_says_so(kind: str, release: Release, known: dict[str, Any]) -> None:
+    async with stage(kind, release, QUICK) as on:
         with pytest.raises(ActionFailure) as failed:
             await on.robot.navigate(Pose2D(40.0, 1.0), NOT_PAUSED, timeout_s=20)
     assert failed.value.code is FailureCode.UNREACHABLE
     assert known.items() <= failed.value.details.items()
 
 
-async def test_a_button_pressed_on_the_robot_ends_the_drive_and_is_told() -> None:
-    async with stage("zenoh") as on:
+@pytest.mark.parametrize("kind", ["zenoh", pytest.param("ros2", marks=NEEDS_ROS)])
+async def test_a_button_pressed_on_the_robot_ends_the_drive_and_is_told(kind: str) -> None:
+    async with stage(kind) as on:
         drive = asyncio.create_task(on.robot.navigate(ahead(on.robot, 2.0), NOT_PAUSED, timeout_s=20))
         await until(lambda: on.nav2.robot.velocity().linear_mps > 0.1)
         on.nav2.press(True)

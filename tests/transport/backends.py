@@ -9,7 +9,7 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, Final, cast
 
 import pytest
 
@@ -119,6 +119,20 @@ async def rosbridge() -> AsyncIterator[Network]:
         yield Network(cast(Transport, Bridged(here)), cast(Transport, Bridged(there)))
 
 
+REAL_BRIDGE: Final = os.environ.get("PARLEY_TEST_ROSBRIDGE", "")
+"""Address of a rosbridge_suite with rosapi, to try the suite against that, too: `ws://127.0.0.1:9090`."""
+
+
+@asynccontextmanager
+async def rosbridge_of_ros() -> AsyncIterator[Network]:
+    """Two clients of a bridge with a ROS behind it."""
+    async with (
+        RosbridgeTransport(REAL_BRIDGE, look_s=0.1) as here,
+        RosbridgeTransport(REAL_BRIDGE, look_s=0.1) as there,
+    ):
+        yield Network(cast(Transport, Bridged(here)), cast(Transport, Bridged(there)), says_why=False)
+
+
 class Matched:
     """A transport whose ends are open when the other node of ROS has met them."""
 
@@ -141,27 +155,43 @@ class Matched:
         return end
 
 
-@asynccontextmanager
-async def ros2() -> AsyncIterator[Network]:
-    """Two nodes, each as of a process of its own, in whatever RMW is sourced; nothing leaves this machine."""
+def ros2_node(name: str, *, look_s: float) -> Ros2Transport:
+    """A node as of a process of its own, in whatever RMW is sourced; nothing leaves this machine."""
     from parley.transport.ros2 import Ros2Transport
 
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
-    domain = 1 + os.getpid() % 100
+    return Ros2Transport(node=name, domain=1 + os.getpid() % 100, look_s=look_s)
+
+
+@asynccontextmanager
+async def ros2() -> AsyncIterator[Network]:
+    """Two nodes of ROS."""
     async with (
-        Ros2Transport(node="contract_here", domain=domain, look_s=0.02) as here,
-        Ros2Transport(node="contract_there", domain=domain, look_s=0.02) as there,
+        ros2_node("contract_here", look_s=0.02) as here,
+        ros2_node("contract_there", look_s=0.02) as there,
     ):
         await until(lambda: here.endpoints() and there.endpoints())
         both = Matched(here, there), Matched(there, here)
         yield Network(cast(Transport, both[0]), cast(Transport, both[1]), says_why=False)
 
 
+_ROS: Final = next(iter(examine_ros()))
+NEEDS_ROS: Final = (
+    pytest.mark.ros,
+    pytest.mark.skipif(_ROS.state != "ok", reason=f"ROS 2: {_ROS.text}"),
+)
+"""Marks of what can be tried only where ROS is sourced."""
+
+
+NEEDS_BRIDGE: Final = (
+    pytest.mark.ros,
+    pytest.mark.skipif(not REAL_BRIDGE, reason="PARLEY_TEST_ROSBRIDGE names no bridge"),
+)
+
+
 def each() -> list[Any]:
-    """All backends, as parameters of tests; that of ROS only where one is sourced."""
-    (told,) = list(examine_ros())[:1]
-    sourced = pytest.mark.skipif(told.state != "ok", reason=f"ROS 2: {told.text}")
-    marks = {"ros2": (pytest.mark.ros, sourced)}
+    """All backends, as parameters of tests; those of a real ROS only where there is one."""
+    marks = {"ros2": NEEDS_ROS, "rosbridge_of_ros": NEEDS_BRIDGE}
     return [pytest.param(name, marks=marks.get(name, ())) for name in sorted(BACKENDS)]
 
 
@@ -169,6 +199,7 @@ BACKENDS: dict[str, Callable[[], AbstractAsyncContextManager[Network]]] = {
     "local": local,
     "ros2": ros2,
     "rosbridge": rosbridge,
+    "rosbridge_of_ros": rosbridge_of_ros,
     "zenoh": zenoh,
 }
 

@@ -45,6 +45,8 @@ APART_S: Final = 0.2
 """Between two commands: it keeps but one that it has not read."""
 
 _GOING: Final = (GraphState.RUNNING, GraphState.PAUSED, GraphState.STOPPING)
+_NOT_BEGUN: Final = (GraphState.UNINITIALIZED, GraphState.INITIALIZED)
+"""A graph that it refused late, as an action could not be loaded, it keeps so."""
 
 
 @dataclass(slots=True)
@@ -182,7 +184,9 @@ class TemotoActors(Node):
     async def _look_for(self, guest: _Guest, name: str) -> None:
         """See whether the engine took a graph of which it says nothing."""
         await asyncio.sleep(self._takes_s)
-        if guest.sent.get(name) != float("-inf") or not await self._ask(guest) or name in guest.graphs:
+        if guest.sent.get(name) != float("-inf") or not await self._ask(guest):
+            return
+        if (held := guest.graphs.get(name)) is not None and held.state not in _NOT_BEGUN:
             return
         guest.sent.pop(name, None)
         problem = RejectionProblem(
@@ -212,7 +216,7 @@ class TemotoActors(Node):
         guest.graphs = {graph.name: graph for graph in guest.read.values()}
         for text, graph in guest.read.items():
             last_s = guest.sent.get(graph.name)
-            if last_s is None or guest.answered_s - last_s < self._takes_s:
+            if last_s is None or guest.answered_s - last_s < self._takes_s or graph.state in _NOT_BEGUN:
                 continue
             if text != guest.told.get(graph.name):
                 # It loses part of its feedback, the last of a graph too.
