@@ -125,7 +125,9 @@ async def measure_transport(times: int, sourced: Sourced | None = None) -> Trans
             rmw = carried_by()
             namespace = f"/parley_bench_{os.getpid()}"
             own = f"{namespace}/ros2"
-            ours = await stack.enter_async_context(_beside(_ros(own), f"{echo_over_ros.__name__}({own!r})"))
+            ours = await stack.enter_async_context(
+                _beside(_ros("bench", own), f"{echo_over_ros.__name__}({own!r})")
+            )
             contenders["ros2"] = await _Over(ours).meet()
             contenders["rclpy"] = await stack.enter_async_context(_rclpy(f"{namespace}/rclpy"))
         figures = [one for size in SIZES for one in await _measure(contenders, size, times)]
@@ -231,7 +233,7 @@ async def echo_over_zenoh(at: str) -> None:
 
 async def echo_over_ros(namespace: str) -> None:
     """The same, in ROS."""
-    await _echo_until_ended(_ros(namespace))
+    await _echo_until_ended(_ros("echo", namespace))
 
 
 async def _echo_until_ended(network: Transport) -> None:
@@ -253,10 +255,10 @@ def _zenoh(*, listen: tuple[str, ...], connect: tuple[str, ...]) -> Transport:
     return ZenohTransport(NetworkSettings(listen=listen, connect=connect, interface=""))
 
 
-def _ros(namespace: str) -> Transport:
+def _ros(node: str, namespace: str) -> Transport:
     from parley.transport.ros2 import Ros2Transport
 
-    return Ros2Transport(node="bench", namespace=namespace)
+    return Ros2Transport(node=node, namespace=namespace)
 
 
 @asynccontextmanager
@@ -277,7 +279,8 @@ async def _beside(network: Transport, echo: str) -> AsyncIterator[Transport]:
         there = asyncio.Event()
 
         def look() -> None:
-            if {BACK.name, OUT.name} <= {end.name.strip("/") for end in transport.endpoints()}:
+            names = [end.name for end in transport.endpoints()]  # in ROS below a namespace
+            if all(any(name.endswith(topic.name) for name in names) for topic in (BACK, OUT)):
                 there.set()
 
         transport.on_endpoints_changed(look)
