@@ -125,4 +125,6 @@ async def test_an_emergency_stop_ends_what_it_carries_out_and_nothing_begins_aga
         assert await body.stands_still()
         await party.settled()
         assert body.did == ["drive 1"]
+        await party.hears("The plan was stopped. Not done: go there")
+        assert party.steps("Z") == ["stopped"] * 2
         assert "start" not in party.wire.commands()[1:]

@@ -120,17 +120,22 @@ async def rosbridge() -> AsyncIterator[Network]:
 
 
 REAL_BRIDGE: Final = os.environ.get("PARLEY_TEST_ROSBRIDGE", "")
-"""Address of a rosbridge_suite with rosapi, to try the suite against that, too: `ws://127.0.0.1:9090`."""
+"""Address of a rosbridge_suite with rosapi, to try the suite against that, too: `ws://127.0.0.1:9090`.
+
+It has to be in the ROS that is sourced, and in the domain that `ROS_DOMAIN_ID` says.
+"""
 
 
 @asynccontextmanager
 async def rosbridge_of_ros() -> AsyncIterator[Network]:
-    """Two clients of a bridge with a ROS behind it."""
+    """A client of a bridge, and a node of the ROS behind it."""
+    from parley.transport.ros2 import Ros2Transport
+
     async with (
         RosbridgeTransport(REAL_BRIDGE, look_s=0.1) as here,
-        RosbridgeTransport(REAL_BRIDGE, look_s=0.1) as there,
+        Ros2Transport(node="contract_there", look_s=0.02) as there,
     ):
-        yield Network(cast(Transport, Bridged(here)), cast(Transport, Bridged(there)), says_why=False)
+        yield Network(cast(Transport, Bridged(here)), there, says_why=False)
 
 
 class Matched:

@@ -147,11 +147,14 @@ class TemotoActors(Node):
         """It knows no emergency stop: what it carries out is ended, and that it stands nobody can say."""
         if command.command == "stop":
             for guest in self._meant(command.targets or tuple(self._guests)):
-                going = {name for name, graph in guest.graphs.items() if graph.state in _GOING}
-                self.spawn(self._stop(guest, sorted({*going, *guest.sent})), name=f"stop {guest.actor}")
+                # What is known to go comes first, as each waits for the one before.
+                going = [name for name, graph in guest.graphs.items() if graph.state in _GOING]
+                unknown = [name for name in guest.sent if name not in guest.graphs]
+                self.spawn(self._stop(guest, (*going, *unknown)), name=f"stop {guest.actor}")
 
     async def _stop(self, guest: _Guest, graphs: Iterable[str]) -> None:
         for name in graphs:
+            self.log.info("ends a graph of TeMoto", robot=guest.actor, graph=name)
             self.send(topics.GRAPH_STOP, ros.UmrfGraphStop(name, (guest.actor,)))
             await asyncio.sleep(APART_S)
 

@@ -67,8 +67,11 @@ class Reports:
         ]
         self._note_dropped(graph, found)
         self._note_unharmed(graph, found)
+        cut = graph.state in (GraphState.STOPPING, GraphState.STOPPED) and not self._plan.can_end_step()
         for step, node in found:
             if step.node == node.full_name:
+                if cut and step.state in ACTIVE_STATES and node.state is NodeState.FINISHED:
+                    step.stopped = True  # the reference says no more of it
                 was = step.result
                 effects += self._on_node(step, node)
                 answered |= node.state is NodeState.ERROR and was is None and step.result is False
