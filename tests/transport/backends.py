@@ -36,6 +36,11 @@ class Network:
     there: Transport
     says_why: bool = True
     """Whether a caller hears that a server failed, and why; else it waits its time."""
+    says_no: bool = True
+    """Whether whoever asks for a long task hears that it is refused, or that nobody is there; else the same.
+
+    rosbridge_suite 2.1 waits for such a goal for ever, and has no words for the parts of an action.
+    """
 
 
 @asynccontextmanager
@@ -135,7 +140,7 @@ async def rosbridge_of_ros() -> AsyncIterator[Network]:
         RosbridgeTransport(REAL_BRIDGE, look_s=0.1) as here,
         Ros2Transport(node="contract_there", look_s=0.02) as there,
     ):
-        yield Network(cast(Transport, Bridged(here)), there, says_why=False)
+        yield Network(cast(Transport, Bridged(here)), there, says_why=False, says_no=False)
 
 
 class Matched:

@@ -13,7 +13,7 @@ import structlog
 from websockets.asyncio.server import ServerConnection, serve
 
 from parley.config import SystemConfig
-from parley.errors import TypeMismatchError, UnavailableError, UnsupportedError
+from parley.errors import TransportTimeoutError, TypeMismatchError, UnavailableError, UnsupportedError
 from parley.messages.actions import Action, GoalId
 from parley.messages.ros import ChatRequest, ChatResponse, CompressedImage, Header, String, Time
 from parley.messages.topics import QoS, Service, Topic
@@ -279,3 +279,27 @@ async def test_ros_1_gets_its_own_names_of_types_and_has_no_actions() -> None:
         "throttle_rate": 200,
         "queue_length": 1,
     }
+
+
+async def test_a_goal_is_called_off_until_that_is_heard_whether_somebody_waits_or_not() -> None:
+    go = Action("go", String, String, String, "std_msgs/action/Go")
+    async with scripted() as (bridge, transport):
+        client = await transport.action_client(go)
+
+        def heard(op: str) -> list[dict[str, Any]]:
+            return [frame for frame in bridge.heard if frame.get("op") == op]
+
+        sending = asyncio.create_task(client.send(String("a"), timeout_s=20.0))
+        await until(lambda: heard("send_action_goal"))
+        asked = heard("send_action_goal")[0]["id"]
+        await bridge.say({"op": "action_feedback", "id": asked, "action": "/go", "values": {"data": ""}})
+        calling_off = asyncio.create_task((await sending).cancel(timeout_s=20.0))
+        await until(lambda: len(heard("cancel_action_goal")) == 2)  # the first came to nothing
+        ended = {"op": "action_result", "id": asked, "action": "/go", "status": 5, "result": True}
+        await bridge.say(ended | {"values": {"data": ""}})
+        assert await calling_off
+        with pytest.raises(TransportTimeoutError):
+            await client.send(String("b"), timeout_s=0.01)
+        given_up = heard("send_action_goal")[-1]["id"]
+        await until(lambda: [one["id"] for one in heard("cancel_action_goal")].count(given_up) == 2)
+        await client.close()

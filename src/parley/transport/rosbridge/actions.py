@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import inspect
+from contextlib import suppress
 from typing import Any, Final, Generic, Protocol, TypeVar
 
 import structlog
@@ -31,6 +32,9 @@ Feedback = TypeVar("Feedback")
 
 REFUSED: Final = "Action goal was rejected"
 _STATES: Final = frozenset(GoalState)
+CANCEL_AGAIN_S: Final = 0.3
+GIVEN_UP_S: Final = 10.0
+"""So long a goal that nobody waits for is called off; a server that takes none by then never did."""
 
 log = structlog.get_logger(__name__)
 
@@ -96,12 +100,9 @@ class _SentGoal(Generic[Result]):
         assert self.ending is not None
         if self.ending.done():
             return False
-        self._client.send_cancel(self.id)
         try:
             async with asyncio.timeout(timeout_s):
-                while self.state < GoalState.CANCELING and not self.ending.done():
-                    self.changed.clear()
-                    await self.changed.wait()
+                await self.called_off()
         except TimeoutError as error:
             raise TransportTimeoutError(
                 f"{self._client.name} is not called off after {timeout_s} s"
@@ -109,6 +110,18 @@ class _SentGoal(Generic[Result]):
         if self.ending.done():
             self.ending.result()  # raises if the server went away
         return self.state in (GoalState.CANCELING, GoalState.CANCELED)
+
+    async def called_off(self) -> None:
+        """Call it off until that is heard: before a bridge has the server's yes, it drops this in silence."""
+        assert self.ending is not None
+        while self.state < GoalState.CANCELING and not self.ending.done():
+            self._client.send_cancel(self.id)
+            self.changed.clear()
+            with suppress(TimeoutError):
+                async with asyncio.timeout(CANCEL_AGAIN_S):
+                    while self.state < GoalState.CANCELING and not self.ending.done():
+                        await self.changed.wait()
+                        self.changed.clear()
 
 
 class RosbridgeActionClient(Generic[Goal, Result, Feedback]):
@@ -131,6 +144,7 @@ class RosbridgeActionClient(Generic[Goal, Result, Feedback]):
         self._result = transport.codec(action.result, f"{action.ros_type}_Result")
         self._feedback = transport.codec(action.feedback, f"{action.ros_type}_Feedback")
         self._ends: list[Subscription] = []
+        self._given_up: set[asyncio.Task[None]] = set()
 
     async def open(self) -> None:
         """Begin to hear of goals."""
@@ -187,6 +201,9 @@ class RosbridgeActionClient(Generic[Goal, Result, Feedback]):
         self._transport.forget(self)
         for end in reversed(self._ends):
             await end.close()
+        for task in list(self._given_up):
+            task.cancel()
+        await asyncio.gather(*self._given_up, return_exceptions=True)
         for sent in list(self._goals.values()):
             if sent.ending is not None:
                 sent.ending.cancel()
@@ -232,9 +249,19 @@ class RosbridgeActionClient(Generic[Goal, Result, Feedback]):
 
     def _give_up(self, sent: _SentGoal[Result]) -> None:
         """Nobody waits for this goal any more; it may be on its way all the same, so it is called off."""
-        self.send_cancel(sent.id)
-        if sent.ending is not None:
-            sent.ending.cancel()
+        task = asyncio.create_task(self._call_off(sent), name=f"give up {self.name}")
+        self._given_up.add(task)
+        task.add_done_callback(self._given_up.discard)
+
+    async def _call_off(self, sent: _SentGoal[Result]) -> None:
+        try:
+            async with asyncio.timeout(GIVEN_UP_S):
+                await sent.called_off()
+        except TimeoutError:
+            log.warning("a goal that was given up was not seen to be called off", action=self.name)
+        finally:
+            if sent.ending is not None:
+                sent.ending.cancel()
 
     def _on_status(self, message: GoalStatusArray) -> None:
         for status in message.status_list:
