@@ -10,11 +10,15 @@ import sys
 from pathlib import Path
 
 import pytest
+import yaml
 from fastapi.testclient import TestClient
 from typer.testing import CliRunner
 
 from parley.cli import command_line
 from parley.config import SystemConfig
+from parley.robots.nav2_simulated import LOCK_S
+from parley.robots.ros_robot import HOLD_S
+from parley.robots.ros_senses import RosTopics
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
 PAGE = (EXAMPLES / "README.md").read_text(encoding="utf-8")
@@ -33,6 +37,18 @@ def test_a_graph_is_accepted_runs_to_its_end_and_can_be_drawn(file: Path) -> Non
     name = json.loads(file.read_text(encoding="utf-8"))["graph_name"]
     assert f"{name}: FINISHED" in invoke("graph", "run", str(file))
     assert invoke("graph", "show", "--format", "mermaid", str(file)).startswith("flowchart")
+
+
+def test_twist_mux_locks_what_parley_and_nav2_say_by_what_parley_says() -> None:
+    text = (EXAMPLES / "twist_mux.yaml").read_text(encoding="utf-8")
+    told = yaml.safe_load(text)["twist_mux"]["ros__parameters"]
+    names, velocities, locks = RosTopics(emergency="e_stop"), told["topics"], told["locks"]
+    assert velocities["parley"]["topic"] == names.cmd_vel
+    assert (locks["parley"]["topic"], locks["e_stop"]["topic"]) == (names.hold, names.emergency)
+    assert 2 * HOLD_S < locks["parley"]["timeout"] <= LOCK_S
+    driven = [velocities[who]["priority"] for who in ("nav2", "parley")]
+    assert driven[0] < driven[1] < locks["parley"]["priority"] < velocities["joystick"]["priority"]
+    assert velocities["joystick"]["priority"] < locks["e_stop"]["priority"]
 
 
 def test_the_fallback_goes_where_it_falls_back_to() -> None:

@@ -32,6 +32,7 @@ LAYERS: tuple[frozenset[str], ...] = (
             "deployment",
             "findings",
             "network_check",
+            "robot_check",
             "ros_check",
             "nodes",
             "api",

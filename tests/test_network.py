@@ -9,6 +9,7 @@ from collections.abc import Callable
 from contextlib import AsyncExitStack
 from pathlib import Path
 
+import pytest
 from typer.testing import CliRunner
 
 from parley.cli import command_line
@@ -127,6 +128,23 @@ async def test_the_doctor_says_who_is_there_which_address_is_silent_and_whose_cl
     assert silent in found[1].text
     assert "robots: A; who plans: there" in found[2].text
     assert "-3600 s" in found[3].text, found[3].text
+
+
+def test_the_doctor_says_whether_others_can_be_looked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("parley.network_check.LISTENS_S", 0.0)
+    monkeypatch.setenv("ROS_DOMAIN_ID", "7")
+    for interface, state in (
+        ("127.0.0.1", "ok"),
+        ("lo", "ok"),
+        ("no-such-net", "wrong"),
+        ("203.0.113.9", "wrong"),
+    ):
+        found = {
+            item.subject: item for item in examine_network(NetworkSettings(interface=interface, listen=()))
+        }
+        assert found["discovery"].state == state, found["discovery"]
+    assert found["domain"].text == "the settings say domain 0, and ROS_DOMAIN_ID is 7"
+    assert "connect" in found["discovery"].remedy
 
 
 async def _nothing(request: ChatRequest) -> ChatResponse:

@@ -28,6 +28,8 @@ from parley.extras import model_extra, needs
 from parley.findings import Finding
 from parley.memory.embedder import configured_embedder
 from parley.network_check import examine_network
+from parley.robot_check import examine_robot, examine_time
+from parley.robots.ros_file import RosRobotFile
 from parley.ros_check import examine_ros
 
 __all__ = ["Finding", "Subject", "examine"]
@@ -62,6 +64,9 @@ class Subject:
     """The file with the memories, if not `memory.db` in `data_dir`."""
     embeddings: EmbeddingSettings | None = None
     network: NetworkSettings | None = None
+    robot: RosRobotFile | None = None
+    """A robot with ROS that is looked at; nothing is sent to it."""
+    robot_name: str = "robot"
 
 
 def examine(subject: Subject) -> Iterable[Finding]:
@@ -74,6 +79,9 @@ def examine(subject: Subject) -> Iterable[Finding]:
         yield check(subject)
     yield from examine_ros()
     yield from examine_network(subject.network)
+    yield examine_time()
+    if subject.robot is not None:
+        yield from examine_robot(subject.robot, subject.robot_name, subject.network)
 
 
 def _python(_: Subject) -> Finding:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import os
 import socket
+import struct
 from collections.abc import Iterable
 from typing import Final
 
@@ -24,6 +26,8 @@ LISTENS_S: Final = 3.0
 APART_MS: Final = 1000
 """Clocks that differ by less do no harm."""
 CONNECTS_WITHIN_S: Final = 2.0
+GROUP: Final = "224.0.0.224"
+"""Where Zenoh looks for others."""
 _SAME: Final = "Look at domain, interface and tls: all parts need the same."
 _SAME_ROS: Final = (
     "Compare ROS_DOMAIN_ID, RMW_IMPLEMENTATION and ROS_AUTOMATIC_DISCOVERY_RANGE: all parts need the same."
@@ -36,6 +40,9 @@ def examine_network(network: NetworkSettings | None) -> Iterable[Finding]:
     if network is None:
         yield Finding("network", "unused", "The settings name none; all is in one process.")
         return
+    if network.ros2 is None and network.rosbridge is None:
+        yield from _domain(network.domain)
+        yield from _multicast(network.interface)
     for address in network.connect:
         yield _address(address)
     try:
@@ -45,6 +52,46 @@ def examine_network(network: NetworkSettings | None) -> Iterable[Finding]:
     except ParleyError as error:
         mend = "Start the router first, or mend `connect`." if network.ros2 is None else "See ROS 2 above."
         yield Finding("network", "wrong", str(error), mend)
+
+
+def _domain(domain: int) -> Iterable[Finding]:
+    """Whoever speaks with robots by rmw_zenoh needs theirs."""
+    of_ros = os.environ.get("ROS_DOMAIN_ID", "")
+    if of_ros.isdecimal() and int(of_ros) != domain:
+        text = f"the settings say domain {domain}, and ROS_DOMAIN_ID is {of_ros}"
+        yield Finding("domain", "wrong", text, "Write the same number in both, to see its robots.")
+
+
+def _multicast(interface: str) -> Iterable[Finding]:
+    """Whether others can be looked for there: what is sent to all comes back to who sends it."""
+    if not interface:
+        return
+    try:
+        at = _interface(interface)
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as end:
+            end.settimeout(CONNECTS_WITHIN_S)
+            end.bind(("", 0))
+            end.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, socket.inet_aton(GROUP) + at)
+            end.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, at if len(at) == 4 else bytes(4) + at)
+            end.sendto(b"parley", (GROUP, end.getsockname()[1]))
+            end.recv(16)
+    except OSError as error:
+        text = f"others cannot be looked for on {interface}: {error}"
+        mend = "Name another `interface`, or `connect` to an address: not every network lets multicast pass."
+        yield Finding("discovery", "wrong", text, mend)
+    else:
+        where = "this machine alone" if interface == "127.0.0.1" else interface
+        yield Finding("discovery", "ok", f"others are looked for on {where}")
+
+
+def _interface(name: str) -> bytes:
+    """Its address, as sockets take it."""
+    if name == "auto":
+        return socket.inet_aton("0.0.0.0")
+    try:
+        return socket.inet_aton(name)
+    except OSError:
+        return bytes(4) + struct.pack("@i", socket.if_nametoindex(name))  # any address, on that network
 
 
 def _address(address: str) -> Finding:

@@ -56,7 +56,13 @@ class Sourced:
         wrong = [*self._rmw(), *self._domain(), *self._packages()]
         rmw = self.environ.get("RMW_IMPLEMENTATION", "its usual RMW")
         told = f"{distro or 'found'}, {rmw}, domain {self.environ.get('ROS_DOMAIN_ID') or 0}"
+        if self._is_alone():
+            told += "; only this machine is seen (ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_LOCALHOST_ONLY)"
         yield from wrong or [Finding("ROS 2", "ok", told)]
+
+    def _is_alone(self) -> bool:
+        reach = self.environ.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET")
+        return reach in ("LOCALHOST", "OFF") or self.environ.get("ROS_LOCALHOST_ONLY", "0") == "1"
 
     def _not_sourced(self) -> Finding:
         found = sorted(self.installed.glob("*/setup.bash"))

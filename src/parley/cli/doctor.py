@@ -16,6 +16,7 @@ from parley.cli.web import PORT
 from parley.config import SystemConfig
 from parley.doctor import Finding, Subject, examine
 from parley.errors import ConfigError
+from parley.robots.ros_file import RosRobotFile
 
 __all__ = ["command"]
 
@@ -31,9 +32,13 @@ def command(
     config: ConfigOption = None,
     language: LanguageOption = "",
     key_file: KeyFileOption = None,
+    robot: Annotated[
+        Path | None, typer.Option(help="File of a robot with ROS (YAML), to listen to what it tells.")
+    ] = None,
+    name: Annotated[str, typer.Option(help="That robot's name.")] = "robot",
     json: Annotated[bool, typer.Option("--json", help="One JSON object per line.")] = False,
 ) -> None:
-    """Check this machine. Exit code 1: something is missing without which Parley does not work."""
+    """Check this machine, and a robot. Exit code 1: Parley does not work without something."""
     quiet_logs()
     chosen, broken = _settings(config)
     chosen = chosen.changed(language_settings(language, key_file))
@@ -47,6 +52,8 @@ def command(
         memory=chosen.memory_file,
         embeddings=chosen.embeddings,
         network=chosen.network,
+        robot=None if robot is None else RosRobotFile.load(robot),
+        robot_name=name,
     )
     hindered = False
     for finding in (*broken, *examine(subject)):

@@ -11,14 +11,46 @@ from typing import Any, Final, Literal
 
 from parley.messages.actions import Action
 from parley.messages.ros import Duration, Header, Time
+from parley.messages.topics import Service
 
 __all__ = [
-    "Bool", "BoundingBox2D", "Detection2D", "Detection2DArray", "Empty", "Image", "LaserScan",
-    "MapMetaData", "NavigateGoal", "NavigateResult",
-    "ObjectHypothesis", "ObjectHypothesisWithPose", "OccupancyGrid", "Odometry", "Point", "Point2D", "Pose",
-    "PoseStamped", "PoseWithCovariance", "PoseWithCovarianceStamped", "Quaternion", "Release", "TFMessage",
-    "Transform", "TransformStamped", "Twist", "TwistStamped", "TwistWithCovariance", "Vector3",
-    "VisionPose2D", "navigate_to_pose",
+    "ACTIVE",
+    "NAVIGATOR",
+    "Bool",
+    "BoundingBox2D",
+    "Detection2D",
+    "Detection2DArray",
+    "Empty",
+    "GetStateRequest",
+    "GetStateResponse",
+    "Image",
+    "LaserScan",
+    "LifecycleState",
+    "MapMetaData",
+    "NavigateGoal",
+    "NavigateResult",
+    "ObjectHypothesis",
+    "ObjectHypothesisWithPose",
+    "OccupancyGrid",
+    "Odometry",
+    "Point",
+    "Point2D",
+    "Pose",
+    "PoseStamped",
+    "PoseWithCovariance",
+    "PoseWithCovarianceStamped",
+    "Quaternion",
+    "Release",
+    "TFMessage",
+    "Transform",
+    "TransformStamped",
+    "Twist",
+    "TwistStamped",
+    "TwistWithCovariance",
+    "Vector3",
+    "VisionPose2D",
+    "get_state",
+    "navigate_to_pose",
 ]  # fmt: skip
 
 Release = Literal["humble", "jazzy", "lyrical"]
@@ -37,6 +69,37 @@ class Bool:
 @dataclass(frozen=True, slots=True)
 class Empty:
     """std_msgs/msg/Empty."""
+
+
+@dataclass(frozen=True, slots=True)
+class GetStateRequest:
+    """lifecycle_msgs/srv/GetState_Request."""
+
+
+@dataclass(frozen=True, slots=True)
+class LifecycleState:
+    """lifecycle_msgs/msg/State."""
+
+    id: int = 0
+    label: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class GetStateResponse:
+    """lifecycle_msgs/srv/GetState_Response."""
+
+    current_state: LifecycleState = LifecycleState()
+
+
+NAVIGATOR: Final = "bt_navigator"
+"""The node of Nav2 that takes goals."""
+ACTIVE: Final = LifecycleState(3, "active")
+"""Of a node that does its work."""
+
+
+def get_state(node: str) -> Service[GetStateRequest, GetStateResponse]:
+    """What a node that is started in steps answers to how far it is; `node` with its namespace."""
+    return Service(f"{node}/get_state", GetStateRequest, GetStateResponse, "lifecycle_msgs/srv/GetState")
 
 
 @dataclass(frozen=True, slots=True)

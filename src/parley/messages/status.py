@@ -105,8 +105,9 @@ OrderState = Literal["open", "failed", "done", "left"]
 """How far an engine is with the steps of one order: `failed`: at one of them, and it stands; `left`: nothing
 more comes of it, and not all of it was done."""
 
-Trouble = Literal["", "silent", "pressed"]
-"""What keeps a robot from moving: `silent`: its base does not answer; `pressed`: a button on it."""
+Trouble = Literal["", "silent", "pressed", "misset"]
+"""What keeps a robot from moving: `silent`: its base does not answer; `pressed`: a button on it; `misset`: it
+takes no velocities, as those who listen for them do not agree on their type."""
 
 
 class ActorStatus(Payload):

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import asyncio
 import io
-from contextlib import AbstractAsyncContextManager, AsyncExitStack
+from collections.abc import AsyncIterator
+from contextlib import AbstractAsyncContextManager, AsyncExitStack, asynccontextmanager
 from typing import Any, Final, Self
 
 from parley.clock import WallClock
@@ -67,6 +68,8 @@ class SimulatedNav2:
         self._held: bool | None = None
         self._held_s = 0.0
         self._pressed = False
+        self.lifecycle = ros_robot.ACTIVE
+        """How far its navigator says it is."""
 
     async def __aenter__(self) -> Self:
         names, transport, stack = self._names, self._transport, AsyncExitStack()
@@ -100,7 +103,21 @@ class SimulatedNav2:
 
     def _serving(self) -> AbstractAsyncContextManager[Any]:
         """What takes goals."""
-        return ActionServer(self._transport, self._action, self._carry_out, self._clock)
+        return self._bt_navigator()
+
+    @asynccontextmanager
+    async def _bt_navigator(self) -> AsyncIterator[None]:
+        async def state(_: ros_robot.GetStateRequest) -> ros_robot.GetStateResponse:
+            return ros_robot.GetStateResponse(self.lifecycle)
+
+        async with ActionServer(self._transport, self._action, self._carry_out, self._clock):
+            told = await self._transport.serve(
+                ros_robot.get_state(self._names.name(ros_robot.NAVIGATOR)), state
+            )
+            try:
+                yield
+            finally:
+                await told.close()
 
     # -- the drive ---------------------------------------------------------------------------------------
 

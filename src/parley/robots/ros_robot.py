@@ -11,12 +11,15 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final, Literal, Protocol, TypeVar
 
+import structlog
+
 from parley.errors import (
     ActionFailure,
     FailureCode,
     GoalRefusedError,
     TransportError,
     TransportTimeoutError,
+    TypeMismatchError,
     UnavailableError,
 )
 from parley.extras import needs
@@ -26,7 +29,7 @@ from parley.messages.status import Trouble
 from parley.robots.base import CameraImage, DriveLimits, LaserScan, NavigationControl, Velocity
 from parley.robots.link import Link
 from parley.robots.own import RobotBase
-from parley.robots.ros_senses import SILENT, RosTopics, Senses, velocities_taken
+from parley.robots.ros_senses import SILENT, RosTopics, Senses, velocities_both, velocities_taken
 from parley.robots.ros_values import header, stamped
 from parley.sentences import sentence
 from parley.transport.base import Outcome, Publisher, SentGoal, Transport
@@ -48,12 +51,15 @@ READY_S: Final = 10.0
 _ENDING_S: Final = 3.0
 _LOOK_S: Final = 0.02
 _LONG_S: Final = 3600.0
+MISSET: Final = "all that listen there must take the same, Twist or TwistStamped; see parley doctor --robot"
 
 PRESSED: Final = sentence("The emergency stop on me is pressed.")
 LATE: Final = sentence("I did not get there in time.")
 NO_WAY: Final = sentence("I know no way to there.")
 
 T = TypeVar("T")
+
+log = structlog.get_logger(__name__)
 
 
 class Goals(Protocol):
@@ -135,6 +141,8 @@ class RosRobot(RobotBase):
         self._keeping: asyncio.Task[None] | None = None
         self._beating: asyncio.Task[None] | None = None
         self._cmd_vel: tuple[type[Any], Publisher[Any]] | None = None
+        self._refused = ""
+        """Why its base gets no velocities, for engineers."""
         self._beat_s = 0.0
         self._paused = False
         self._sending: asyncio.Future[Any] | None = None
@@ -153,7 +161,9 @@ class RosRobot(RobotBase):
         """See `Robot.trouble`."""
         if not self._senses.fresh(LOST_S):
             return "silent"
-        return "pressed" if self._senses.emergency else ""
+        if self._senses.emergency:
+            return "pressed"
+        return "misset" if self._refused else ""
 
     def pose(self) -> Pose2D:
         """See `Robot.pose`."""
@@ -186,11 +196,31 @@ class RosRobot(RobotBase):
         if self._cmd_vel is None or self._cmd_vel[0] is not kind:
             if self._cmd_vel is not None:
                 self._cmd_vel[1].close()
-            self._cmd_vel = kind, self._transport.publisher(self._names.topic(self._names.cmd_vel, kind))
+            self._cmd_vel = None
+            try:
+                topic = self._names.topic(self._names.cmd_vel, kind)
+                self._cmd_vel = kind, self._transport.publisher(topic)
+            except TypeMismatchError as error:
+                self._refuse(str(error))
+                return
+            self._refused = ""
         twist = Twist(Vector3(velocity.linear_mps), Vector3(z=velocity.angular_radps))
         stamped = kind is TwistStamped
         top = header(self._names.base_frame, self._clock.unix_ms())
         self._cmd_vel[1].publish(TwistStamped(top, twist) if stamped else twist)
+
+    def _look(self) -> None:
+        """On the link: whether who listens for velocities agrees on their type."""
+        if self._transport is not None and velocities_both(self._names, self._transport.endpoints()):
+            self._refuse(f"both kinds are listened for on {self._names.name(self._names.cmd_vel)}")
+        else:
+            self._refused = ""
+
+    def _refuse(self, why: str) -> None:
+        """Say once why the base gets no velocities."""
+        if why != self._refused:
+            log.error("the base gets no velocities", robot=self.name, why=why, remedy=MISSET)
+        self._refused = why
 
     def halt(self) -> None:
         """See `Robot.halt`: besides, it is told to stand, and `go` calls its goal off."""
@@ -233,6 +263,7 @@ class RosRobot(RobotBase):
         names = self._names
         self._hold = transport.publisher(names.topic(names.hold, Bool))
         self._transport = transport
+        transport.on_endpoints_changed(self._look)
         await self._senses.listen(transport)
         await self._goals.open(transport)
         self._opened_s = self._clock.wall_s()

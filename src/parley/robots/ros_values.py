@@ -83,6 +83,18 @@ class Frames:
             child, parent = told.child_frame_id.lstrip("/"), told.header.frame_id.lstrip("/")
             self._in[child] = parent, planar(told.transform.translation, told.transform.rotation)
 
+    @property
+    def names(self) -> frozenset[str]:
+        """All that were told of."""
+        return frozenset({*self._in, *(parent for parent, _ in self._in.values())})
+
+    def chain(self, frame: str) -> list[str]:
+        """A frame, what it stands in, what that stands in, as far as it was told."""
+        found = [frame]
+        while (inner := self._in.get(found[-1])) is not None and len(found) < _LONGEST_CHAIN:
+            found.append(inner[0])
+        return found
+
     def find(self, frame: str, within: str) -> Pose2D | None:
         """Where a frame stands in another; None: nobody told."""
         at = Pose2D(0.0, 0.0)
