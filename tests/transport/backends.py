@@ -34,8 +34,6 @@ class Network:
 
     here: Transport
     there: Transport
-    says_why: bool = True
-    """Whether a caller hears that a server failed, and why; else it waits its time."""
     says_no: bool = True
     """Whether whoever asks for a long task hears that it is refused, or that nobody is there; else the same.
 
@@ -140,7 +138,7 @@ async def rosbridge_of_ros() -> AsyncIterator[Network]:
         RosbridgeTransport(REAL_BRIDGE, look_s=0.1) as here,
         Ros2Transport(node="contract_there", look_s=0.02) as there,
     ):
-        yield Network(cast(Transport, Bridged(here)), there, says_why=False, says_no=False)
+        yield Network(cast(Transport, Bridged(here)), there, says_no=False)
 
 
 class Matched:
@@ -182,7 +180,7 @@ async def ros2() -> AsyncIterator[Network]:
     ):
         await until(lambda: here.endpoints() and there.endpoints())
         both = Matched(here, there), Matched(there, here)
-        yield Network(cast(Transport, both[0]), cast(Transport, both[1]), says_why=False)
+        yield Network(cast(Transport, both[0]), cast(Transport, both[1]))
 
 
 _ROS: Final = next(iter(examine_ros()))

@@ -373,12 +373,9 @@ async def test_a_server_that_fails_is_told_to_the_caller_with_its_reason(
 
     await network.there.serve(ECHO, fail)
     await until(lambda: serves(network.here, ECHO))
-    expected, told, within_s = (
-        (TransportError, "too purple", 5.0) if network.says_why else (TransportTimeoutError, "0.3 s", 0.3)
-    )
-    with pytest.raises(expected, match=told) as caught:
-        await network.here.call(ECHO, ChatRequest("x"), timeout_s=within_s)
-    assert type(caught.value) is expected
+    with pytest.raises(TransportError, match="too purple") as caught:
+        await network.here.call(ECHO, ChatRequest("x"), timeout_s=5.0)
+    assert type(caught.value) is TransportError
 
 
 async def test_a_server_whose_own_peer_is_missing_is_not_mistaken_for_a_missing_server(
@@ -389,9 +386,8 @@ async def test_a_server_whose_own_peer_is_missing_is_not_mistaken_for_a_missing_
 
     await network.there.serve(ECHO, needs_another)
     await until(lambda: serves(network.here, ECHO))
-    told, within_s = ("deeper", 5.0) if network.says_why else ("0.3 s", 0.3)
-    with pytest.raises(TransportError, match=told) as caught:
-        await network.here.call(ECHO, ChatRequest("x"), timeout_s=within_s)
+    with pytest.raises(TransportError, match="deeper") as caught:
+        await network.here.call(ECHO, ChatRequest("x"), timeout_s=5.0)
     assert not isinstance(caught.value, UnavailableError)
 
 

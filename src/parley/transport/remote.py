@@ -26,9 +26,10 @@ from parley.transport.base import (
     Transport,
     absolute,
 )
+from parley.transport.failures import failure_in
 from parley.transport.graph import EndpointGraph
 from parley.transport.inbox import Inbox
-from parley.transport.refusals import answered_already, check_request, nobody_answers, too_late
+from parley.transport.refusals import answered_already, check_request, failed, nobody_answers, too_late
 
 __all__ = ["Answer", "Codec", "Holder", "RemoteServer", "RemoteSubscription", "RemoteTransport"]
 
@@ -269,7 +270,10 @@ class RemoteTransport(Transport, Generic[G]):
                 answer = await self._request(service, requests.encode(request), timeout_s)
         except TimeoutError as error:
             raise too_late(service.name, timeout_s) from error
-        return responses.decode(answer)
+        told = responses.decode(answer)
+        if why := failure_in(told):
+            raise failed(service.name, why)
+        return told
 
     def _codec(self, python_type: type[M], ros_type: str) -> Codec[M]:
         known = self._codecs.get((python_type, ros_type))

@@ -13,6 +13,7 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPo
 
 from parley.messages.topics import QoS, Topic
 from parley.transport.base import Endpoint
+from parley.transport.failures import failure_of
 from parley.transport.inbox import Inbox
 from parley.transport.refusals import check_message
 from parley.transport.ros2.types import Codec
@@ -160,7 +161,7 @@ class RosSubscription(Inbox[M]):
 
 
 class RosServer(Generic[Req, Res]):
-    """See `parley.transport.base.Server`. A call that fails has no answer: ROS has no word for it."""
+    """See `parley.transport.base.Server`. If a call fails, its answer says so if it has a place for that."""
 
     def __init__(
         self,
@@ -168,8 +169,9 @@ class RosServer(Generic[Req, Res]):
         endpoint: Endpoint,
         codecs: tuple[Codec[Req], Codec[Res]],
         handler: Callable[[Req], Awaitable[Res]],
+        kind: type[Res],
     ) -> None:
-        self._transport, self.endpoint, self._handler = transport, endpoint, handler
+        self._transport, self.endpoint, self._handler, self._kind = transport, endpoint, handler, kind
         self._requests, self._responses = codecs
         self._loop = asyncio.get_running_loop()
         self._made: Any = None
@@ -203,9 +205,12 @@ class RosServer(Generic[Req, Res]):
         try:
             answer = self._responses.encode(await self._handler(self._requests.decode(request)))
         except Exception as error:
-            # The border of whoever serves: ROS cannot tell the caller, so the log has to.
+            # The border of whoever serves: not every answer of ROS can tell the caller, so the log does.
             log.exception("a service failed", service=self.endpoint.name, why=str(error))
-            return
+            failure = failure_of(self._kind, str(error) or type(error).__name__)
+            if failure is None:
+                return
+            answer = self._responses.encode(failure)
         if self._made is not None:
             try:
                 self._respond(answer, header)

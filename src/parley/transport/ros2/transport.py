@@ -17,7 +17,15 @@ from parley.messages.actions import Action
 from parley.messages.topics import Service, Topic
 from parley.transport.actions import CallingActionClient
 from parley.transport.base import Endpoint, Handler, Subscription, absolute
-from parley.transport.refusals import answered_already, check_request, nobody_answers, too_late, went_away
+from parley.transport.failures import failure_in
+from parley.transport.refusals import (
+    answered_already,
+    check_request,
+    failed,
+    nobody_answers,
+    too_late,
+    went_away,
+)
 from parley.transport.ros2.ends import RosClient, RosPublisher, RosServer, RosSubscription, profile
 from parley.transport.ros2.graph import Graph
 from parley.transport.ros2.rosout import log_to_ros
@@ -154,7 +162,7 @@ class Ros2Transport:
             raise answered_already(service.name)
         made = ros_class(service.ros_type)
         endpoint = Endpoint(absolute(service.name), service.ros_type, "server")
-        server = RosServer(self, endpoint, self._codecs_of(service, made), handler)
+        server = RosServer(self, endpoint, self._codecs_of(service, made), handler, service.response)
         self._opened(server)
         server.serves(
             self._node.create_service(made, service.name, server.on_request, callback_group=self._group)
@@ -176,6 +184,8 @@ class Ros2Transport:
             raise too_late(service.name, timeout_s) from error
         if answer is None:
             raise went_away(service.name)
+        if why := failure_in(answer):
+            raise failed(service.name, why)
         return answer
 
     async def action_client(
