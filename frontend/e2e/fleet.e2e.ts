@@ -34,6 +34,13 @@ describe.skipIf(!hasBrowser)('people with a team', () => {
     await card.getByRole('button', { name: /^Together: / }).tap();
     for (const robot of ROBOTS) await card.getByRole('listitem').filter({ hasText: robot }).waitFor();
     expect(await barriers(page)).toEqual([]);
+    const desk = await stage.open(sizes.desktop);
+    const tabs = desk.getByRole('group', { name: 'Robots you talk to' });
+    for (const robot of ROBOTS) await tabs.getByRole('button', { name: `${robot} is waiting for your answer` }).waitFor();
+    const cut = (row: Element) => row.scrollWidth > row.clientWidth || row.scrollHeight > row.clientHeight;
+    expect(await tabs.evaluate(cut)).toBe(false);
+    await desk.locator('svg text').getByText('Area A', { exact: true }).waitFor();
+    await desk.close(); // its cameras cost the robots time
     await yes.tap();
     await card.getByRole('button', { name: 'Cancel the part of Leo' }).tap();
     await card.getByRole('listitem').filter({ hasText: 'Leo' }).getByText('Not all done').waitFor();
