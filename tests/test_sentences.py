@@ -143,3 +143,9 @@ def test_a_sentence_ends_once_whatever_is_filled_in_before_its_end(said: str, sh
     assert said.endswith(shown)
     for text in (said, str(said)):
         assert not re.search(r"(?<!\.)\.[”“]?\.(?!\.)", in_language(text, "et"))
+
+
+def test_the_label_of_a_step_that_asks_holds_the_question_in_the_same_language() -> None:
+    asked = "I cannot pick things up. Please put the red box on me and tell me when it is done."
+    assert in_language(f"Ask you: “{asked}”", "et") == f"Küsi sinult: „{in_language(asked, 'et')}“"
+    assert in_language("Ask you: “How is it?”", "et") == "Küsi sinult: „How is it?“"

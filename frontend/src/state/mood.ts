@@ -20,7 +20,10 @@ export function moodOf(name: string, { robots, plans, proposals }: Seen): Mood {
   const waits =
     Object.values(plans).some((plan) => plan.robot === name && NEEDS.includes(plan.state)) ||
     Object.values(proposals).some((proposal) => proposal.robot === name);
-  if (waits && robot.state !== 'running') return 'waiting';
+  // A step that asks has nobody else to go on with.
+  const open = Object.values(plans).flatMap((plan) => (plan.robot === name ? plan.steps : []));
+  const asks = open.some((step) => step.state === 'waiting') && !open.some((step) => step.state === 'running');
+  if (robot.state === 'running' ? asks : waits) return 'waiting';
   // What an earlier process of it left does not run, and is not over.
   const isKept = robot.state === 'idle' && Object.values(plans).some((plan) => plan.robot === name && plan.state === 'paused');
   if (isKept) return 'paused';

@@ -30,8 +30,7 @@ export function RobotLine({ name, named }: { name: string; named: boolean }) {
     [plans, name],
   );
   const asks = useAsked().some((entry) => entry.targets.includes(name));
-  const waits = mood === 'running' ? task?.step.state === 'waiting' : mood === 'idle' && asks;
-  const shown = waits ? 'waiting' : mood;
+  const shown = mood === 'idle' && asks ? 'waiting' : mood;
   const here = mood !== 'away' && mood !== 'unknown'; // else the rest is old
   return (
     <div className={css.line} role="group" aria-label={t('fares', { name })}>
