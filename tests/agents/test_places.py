@@ -17,6 +17,7 @@ from parley.demos.observer import Observer
 from parley.engines import WorldView
 from parley.errors import FileFormatError
 from parley.gate.audit_text import told
+from parley.language.base import Language
 from parley.messages import topics
 from parley.messages.audit import AuditEvent
 from parley.messages.map import GetMap, MapInfo, MapRoom, MapThing, PlaceChange, PlaceChanged
@@ -56,8 +57,9 @@ class Crew(House):
 
 
 @asynccontextmanager
-async def crew(config: SystemConfig | None = None) -> AsyncIterator[Crew]:
-    system = System(two_rooms(), config or SystemConfig(speed=None), actions=BUILTIN_ACTIONS)
+async def crew(config: SystemConfig | None = None, language: Language | None = None) -> AsyncIterator[Crew]:
+    config = config or SystemConfig(speed=None)
+    system = System(two_rooms(), config, actions=BUILTIN_ACTIONS, language=language)
     async with system, Observer(system.transport, system.clock) as observer:
         await observer.until(lambda: "A" in observer.robots, timeout_s=10)
         yield Crew(system, observer, "A")

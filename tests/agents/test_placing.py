@@ -7,6 +7,7 @@ import math
 import pytest
 
 from parley.config import SystemConfig
+from parley.language.scripted import ScriptedLanguage
 from parley.messages import topics
 from parley.messages.chat import ChatInput
 from parley.messages.principal import Role, person
@@ -90,6 +91,14 @@ async def test_a_name_that_is_somewhere_else_is_moved_only_after_a_yes() -> None
 async def test_what_is_no_place_is_understood_as_before(said: str) -> None:
     async with crew() as it:
         assert "I note" not in await told(it, said)
+
+
+async def test_whatever_engine_there_is_it_is_not_asked_what_a_place_is_called() -> None:
+    language = ScriptedLanguage()
+    async with crew(language=language) as it:
+        assert "“pharmacy”" in await told(it, "this is the pharmacy")
+        assert "on the map" in await told(it, "yes", answer=True)
+        assert language.asked == []
 
 
 async def test_only_supervisors_name_places() -> None:
