@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections import deque
-from collections.abc import Awaitable, Callable
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Any, Final, Generic, Protocol, TypeVar
 
@@ -12,17 +12,14 @@ import structlog
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
 from parley.messages.topics import QoS, Topic
+from parley.transport import remote
 from parley.transport.base import Endpoint
-from parley.transport.failures import failure_of
-from parley.transport.inbox import Inbox
 from parley.transport.refusals import check_message
-from parley.transport.ros2.types import Codec
+from parley.transport.remote import RemoteServer, RemoteSubscription
 
 __all__ = ["Holder", "RosClient", "RosPublisher", "RosServer", "RosSubscription", "profile"]
 
 M = TypeVar("M")
-Req = TypeVar("Req")
-Res = TypeVar("Res")
 
 AHEAD: Final = 100
 """So many messages may be on their way at least, whatever the depth says: it is counted where they wait."""
@@ -34,18 +31,12 @@ AGAIN_S: Final = 0.05
 log = structlog.get_logger(__name__)
 
 
-class Holder(Protocol):
+class Holder(remote.Holder, Protocol):
     """What ends ask of the transport that opened them."""
 
     @property
     def node(self) -> Any:
         """The node of ROS."""
-
-    def keep(self, task: asyncio.Task[Any]) -> None:
-        """Something goes on; it ends with the transport at the latest."""
-
-    def count_failure(self) -> None:
-        """A handler raised."""
 
     def closed(self, end: Any) -> None:
         """An end is closed."""
@@ -69,7 +60,7 @@ class RosPublisher(Generic[M]):
     """
 
     def __init__(
-        self, transport: Holder, topic: Topic[M], codec: Codec[M], made: Any, endpoint: Endpoint
+        self, transport: Holder, topic: Topic[M], codec: remote.Codec[M], made: Any, endpoint: Endpoint
     ) -> None:
         self._transport, self._topic, self._codec, self._made = transport, topic, codec, made
         self.endpoint = endpoint
@@ -132,51 +123,38 @@ class RosPublisher(Generic[M]):
             self._waiting.popleft()
 
 
-class RosSubscription(Inbox[M]):
-    """See `parley.transport.base.Subscription`."""
+class RosSubscription(RemoteSubscription[M]):
+    """See `parley.transport.base.Subscription`; ROS hands messages over on its thread."""
 
-    def __init__(
-        self, transport: Holder, topic: Topic[M], codec: Codec[M], endpoint: Endpoint, inbox: dict[str, Any]
-    ) -> None:
-        super().__init__(topic, on_failure=transport.count_failure, **inbox)
-        self._transport, self._codec, self.endpoint = transport, codec, endpoint
-        self.made: Any = None
-
-    def on_message(self, message: Any) -> None:
-        """A message came, on the thread of ROS."""
-        try:
-            told = self._codec.decode(message)
-        except (TypeError, ValueError) as error:
-            log.warning("a message cannot be read", topic=self._topic.name, why=str(error))
-        else:
-            self.put(told)
+    _holder: Holder
+    made: Any = None
 
     async def close(self) -> None:
         """See `Subscription.close`."""
         made, self.made = self.made, None
         if made is not None:
-            self._transport.closed(self)
-            self._transport.node.destroy_subscription(made)
+            self._holder.closed(self)
+            self._holder.node.destroy_subscription(made)
         await super().close()
 
 
-class RosServer(Generic[Req, Res]):
-    """See `parley.transport.base.Server`. If a call fails, its answer says so if it has a place for that."""
+class RosServer(RemoteServer):
+    """See `RemoteServer`. If a call fails, its answer says so if it has a place for that."""
+
+    _holder: Holder
 
     def __init__(
         self,
         transport: Holder,
         endpoint: Endpoint,
-        codecs: tuple[Codec[Req], Codec[Res]],
-        handler: Callable[[Req], Awaitable[Res]],
-        kind: type[Res],
+        answer: remote.Answer,
+        failure: Callable[[str], Any],
     ) -> None:
-        self._transport, self.endpoint, self._handler, self._kind = transport, endpoint, handler, kind
-        self._requests, self._responses = codecs
+        super().__init__(transport, endpoint, answer)
+        self._failure = failure
         self._loop = asyncio.get_running_loop()
         self._made: Any = None
         self._respond: Callable[[Any, Any], None]
-        self._working: set[asyncio.Task[None]] = set()
 
     def serves(self, made: Any) -> None:
         """ROS has opened it.
@@ -193,55 +171,49 @@ class RosServer(Generic[Req, Res]):
 
     def _asked(self, request: Any, header: Any) -> None:
         with suppress(RuntimeError):  # the loop has ended; nobody answers
-            self._loop.call_soon_threadsafe(self._begin, request, header)
+            self._loop.call_soon_threadsafe(self._take, request, header)
 
-    def _begin(self, request: Any, header: Any) -> None:
+    def _take(self, request: Any, header: Any) -> None:
         if self._made is not None:
-            task = asyncio.create_task(self._answer(request, header), name=f"call of {self.endpoint.name}")
-            self._working.add(task)
-            task.add_done_callback(self._working.discard)
+            self.begin(header, request)
 
-    async def _answer(self, request: Any, header: Any) -> None:
-        try:
-            answer = self._responses.encode(await self._handler(self._requests.decode(request)))
-        except Exception as error:
-            # The border of whoever serves: not every answer of ROS can tell the caller, so the log does.
-            log.exception("a service failed", service=self.endpoint.name, why=str(error))
-            failure = failure_of(self._kind, str(error) or type(error).__name__)
-            if failure is None:
-                return
-            answer = self._responses.encode(failure)
+    def reply(self, call: Any, answer: Any) -> None:
+        """See `RemoteServer.reply`."""
         if self._made is not None:
             try:
-                self._respond(answer, header)
+                self._respond(answer, call)
             except RuntimeError as error:
                 log.warning("an answer was not taken", service=self.endpoint.name, why=str(error))
+
+    def refuse(self, call: Any, why: str) -> None:
+        """See `RemoteServer.refuse`: not every answer of ROS can tell the caller, so the log does."""
+        log.exception("a service failed", service=self.endpoint.name, why=why)
+        if (answer := self._failure(why)) is not None:
+            self.reply(call, answer)
 
     async def close(self) -> None:
         """See `Server.close`."""
         made, self._made = self._made, None
         if made is None:
             return
-        self._transport.closed(self)
-        self._transport.node.destroy_service(made)
-        others = self._working - {asyncio.current_task()}
+        self._holder.closed(self)
+        self._holder.node.destroy_service(made)
+        others = self.working - {asyncio.current_task()}
         for task in others:
             task.cancel()
         await asyncio.gather(*others, return_exceptions=True)
 
 
-class RosClient(Generic[Req, Res]):
+class RosClient:
     """The asking end of a service; it stays open, as ROS takes a moment to bring both ends together."""
 
-    def __init__(self, made: Any, codecs: tuple[Codec[Req], Codec[Res]]) -> None:
+    def __init__(self, made: Any) -> None:
         self._made = made
-        self._requests, self._responses = codecs
         self._loop = asyncio.get_running_loop()
         self._waiting: set[asyncio.Future[Any]] = set()
 
-    async def call(self, request: Req) -> Res | None:
+    async def call(self, asked: Any) -> Any:
         """The answer; None: whoever answers went away. Whoever calls this sets a limit."""
-        asked = self._requests.encode(request)
         waiting: asyncio.Future[Any] = self._loop.create_future()
         self._waiting.add(waiting)
         future: Any = None
@@ -251,12 +223,11 @@ class RosClient(Generic[Req, Res]):
             if not waiting.done():
                 future = self._made.call_async(asked)
                 future.add_done_callback(lambda done: self._soon(waiting, done.result()))
-            answer = await waiting
+            return await waiting
         finally:
             self._waiting.discard(waiting)
             if future is not None:
                 self._made.remove_pending_request(future)
-        return None if answer is None else self._responses.decode(answer)
 
     def lost(self) -> None:
         """Whoever answers went away."""

@@ -25,11 +25,14 @@ _OF_ACTIONS: Final = {
 
 
 def ros_class(ros_type: str) -> Any:
-    """The class of a message, a service or a part of an action, by a name such as `std_msgs/msg/String`.
+    """The class of a message, a service, an action, or a part of these, by a name as `std_msgs/msg/String`.
 
     Raises:
         UnsupportedError: It is not built or not sourced.
     """
+    service, _, part = ros_type.rpartition("_")
+    if part in ("Request", "Response"):
+        return getattr(ros_class(service), part)
     package, kind, name = ros_type.split("/")
     action, _, part = name.partition("_") if kind == "action" else (name, "", "")
     try:
@@ -68,8 +71,15 @@ class Codec(Generic[M]):
             raise TypeMismatchError(f"{self._name} cannot carry this message: {error}") from error
 
     def decode(self, message: Any) -> M:
-        """Our message for what came."""
-        decoded: M = self._in(message)
+        """Our message for what came.
+
+        Raises:
+            TypeMismatchError: A value is none that our field can carry.
+        """
+        try:
+            decoded: M = self._in(message)
+        except (TypeError, ValueError) as error:
+            raise TypeMismatchError(f"a {self._name} cannot be read: {error}") from error
         return decoded
 
 
