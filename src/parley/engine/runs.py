@@ -68,6 +68,8 @@ class GraphRuns:
         self._stop_timeout_s = stop_timeout_s
         self._runs: dict[str, GraphRun] = {}
         self._replaced: list[GraphRun] = []
+        self._rested = False
+        """Whether a graph came to rest since it was looked which of them are to be forgotten."""
         self._latched = latched
 
     @property
@@ -242,6 +244,7 @@ class GraphRuns:
 
         def observe(transition: Transition) -> None:
             if (known := made()) is not None and self._runs.get(known.name) is known:
+                self._rested = self._rested or known.state not in BUSY
                 self._observer(known, transition)
 
         run = GraphRun(
@@ -283,6 +286,9 @@ class GraphRuns:
             raise stop_latched(name, self._actor)
 
     def _forget_ended(self) -> None:
+        if not self._rested:
+            return
+        self._rested = False
         ended: list[GraphRun] = []
         halted: list[GraphRun] = []
         for run in self._runs.values():
