@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import pytest
-
 from parley.bench.transport import SIZES, TransportFigures, TransportReport, measure_transport
-from parley.ros_check import Sourced, need_ros
+from parley.ros_check import Sourced
+from tests.transport.backends import NEEDS_ROS
 
 NO_ROS = Sourced(environ={}, path=(), installed=Path("nowhere"))
 
@@ -40,9 +39,9 @@ def test_what_is_compared_with_rclpy_is_of_its_size() -> None:
     assert report.to_rclpy(its) is None
 
 
-@pytest.mark.ros
+@NEEDS_ROS[0]
+@NEEDS_ROS[1]
 async def test_where_ros_is_rclpy_itself_is_measured_in_the_same_run() -> None:
-    need_ros(Sourced(packages=("sensor_msgs", "std_msgs")))
     report = await measure_transport(7)
     assert_all_came(report, 7, "local", "zenoh", "ros2", "rclpy")
     assert report.rmw.startswith("rmw_")
