@@ -103,3 +103,9 @@ async def test_model_has_to_answer_in_the_form() -> None:
         body = asked.server.requests[0].body
     assert body["tool_choice"] == "required"
     assert body["tools"][0]["function"]["strict"] is True
+
+
+def test_what_only_programs_know_something_by_is_no_part_of_a_form() -> None:
+    waits = next(info for info in Catalogue(BUILTIN_ACTIONS).infos() if info.name == "WaitForRobot")
+    assert '"order"' not in json.dumps(form_of(Known("interpret", (waits,))))
+    assert '"robot"' in json.dumps(form_of(Known("interpret", (waits,))))

@@ -137,7 +137,7 @@ def _action(info: ActionInfo, known: Known) -> Form:
     free = given | set(info.optional)
     fields: dict[str, Form] = {
         "action": _one_of((info.name,)),
-        "parameters": _tree(info.inputs, free, _values(info, known)),
+        "parameters": _tree(_said(info), free, _values(info, known)),
         "reason": _TEXT | {"description": "Why, in a few plain words for the operator."},
         "only_if": _or_none(_object({"step": {"type": "integer"}, "result": {"type": "boolean"}})),
         "together_with": _or_none({"type": "integer"}),
@@ -146,6 +146,12 @@ def _action(info: ActionInfo, known: Known) -> Form:
     if others := tuple(name for name in _short(known.robots) if name != known.robot):
         fields["robot"] = _or_none(_one_of(others))
     return _object(fields)
+
+
+def _said(info: ActionInfo) -> dict[str, str]:
+    """The inputs that anybody could give; what programs know something by is none."""
+    told = parameters_of(info)
+    return {name: kind for name, kind in info.inputs.items() if told[name].kind != "id"}
 
 
 def _values(info: ActionInfo, known: Known) -> dict[str, Form]:
