@@ -6,7 +6,7 @@ import random
 
 import pytest
 
-from parley.language.builtin.decision import Ask, Decision, Do
+from parley.language.builtin.decision import Ask, Decision, Do, Remember
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.messages.status import ActionInfo, ParameterInfo
 from tests.language.builtin.worlds import CATALOGUE, situation
@@ -39,6 +39,7 @@ MEANT = {
     "weld the bracket": ("a", {"part": "bracket"}),
     "sound the horn": ("b", {}),
     "please sound the horn three times": ("b", {"times": 3.0}),
+    "sound the horn twice, please": ("b", {"times": 2.0}),
     "dispense 500 grams of feed into pen 4": ("c", {"kg": 0.5, "pen": "pen 4"}),
     "set the fan to full": ("d", {"mode": "full"}),
     "sterilise the chamber for half an hour": ("f", {"minutes": 30.0}),
@@ -88,6 +89,24 @@ def test_what_is_not_certain_is_offered_in_the_makers_words() -> None:
     assert "sound the horn" in decision.question
     assert done(Do(decision.offer)) == [("b", {})]
     assert done(decide(decision.choices[0])) == [("b", {})]
+
+
+def test_what_is_done_is_said_with_one_article() -> None:
+    water = ActionInfo(name="j", inputs={"thing": "string"}, phrases=("water the {thing}",))
+    decision = decide("water the desk", (water,))
+    assert isinstance(decision, Do)
+    assert decision.deeds[0].text == "water the desk"
+
+
+@pytest.mark.parametrize(
+    "message", ["remember that the red box is full", "please remember that the gate is open, ok"]
+)
+def test_what_is_to_be_remembered_is_no_picture(message: str) -> None:
+    keep = ActionInfo(
+        name="k", description="Remember what is in front.", phrases=("remember this view", "keep the picture")
+    )
+    assert isinstance(decide(message, (keep,)), Remember)
+    assert done(decide("remember this view", (keep,))) == [("k", {})]
 
 
 NAMED = (

@@ -68,8 +68,6 @@ const partKey = (plan: PlanView) => (plan.kind === 'plan' ? plan.robot : planKey
 function PlanOf({ plan }: { plan: PlanView }) {
   const { t } = useTranslation(['plan', 'common']);
   const proposals = useWorld((world) => world.proposals);
-  const here = useWorld((world) => world.robots[plan.robot]?.connection === 'here');
-  const lost = useLive((live) => live.connection === 'lost');
   const [editing, setEditing] = useState<PlanView | null>(null);
   const waiting = plan.kind === 'plan' ? proposalsOf(proposals, plan.robot) : [];
   const pending = pendingSteps(plan.steps);
@@ -86,8 +84,7 @@ function PlanOf({ plan }: { plan: PlanView }) {
           {current >= 0 && lines.length > 1 && t('stateStep', { number: current + 1, all: lines.length })}
         </p>
         <HeldBy by={plan.held_by} />
-        {lost && <p className={css.away}>{t('old')}</p>}
-        {!here && !lost && <p className={css.away}>{t('away', { robot: plan.robot })}</p>}
+        <Away robot={plan.robot} />
         <PlanControls plan={plan} onEdit={pending.length > 0 && !editing ? () => setEditing(plan) : null} />
       </div>
       {/* eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex -- what scrolls must be reachable by keys */}
@@ -118,6 +115,15 @@ function PlanOf({ plan }: { plan: PlanView }) {
       {!editing && <Foot plan={plan} />}
     </>
   );
+}
+
+/** Why what is shown may not be how it is. */
+function Away({ robot }: { robot: string }) {
+  const { t } = useTranslation('plan');
+  const here = useWorld((world) => world.robots[robot]?.connection === 'here');
+  const lost = useLive((live) => live.connection === 'lost');
+  if (here && !lost) return null;
+  return <p className={css.away}>{lost ? t('old') : t('away', { robot })}</p>;
 }
 
 /** What the robot does with others: all that goes on, or else what ended last. */

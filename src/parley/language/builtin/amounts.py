@@ -12,7 +12,7 @@ __all__ = ["UNITS", "Amount", "amount_of", "direction_of", "in_unit", "is_compas
 
 _SMALL = """zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen
 sixteen seventeen eighteen nineteen"""
-_ONES = {word: number for number, word in enumerate(_SMALL.split())}
+_ONES = {word: number for number, word in enumerate(_SMALL.split())} | {"twice": 2, "thrice": 3}
 _TENS = {
     "twenty": 20, "thirty": 30, "forty": 40, "fourty": 40, "fifty": 50, "sixty": 60, "seventy": 70,
     "eighty": 80,

@@ -253,9 +253,8 @@ class Builder(Doing):
         if not often:
             return 1
         words = [word for word in often[0].words if word not in ("times", "rounds", "time", "for")]
-        count = 2 if words == ["twice"] else 3 if words == ["thrice"] else 0
         amount = amount_of(words) if words else None
-        count = count or (int(amount.value) if amount is not None and amount.kind == "number" else 0)
+        count = int(amount.value) if amount is not None and amount.kind == "number" else 0
         if len(often) > 1 or not 1 <= count <= _MOST_TIMES:
             return Ask(f"I cannot do that “{often[0].text}” by myself. Shall I do it once, now?")
         return count

@@ -26,6 +26,7 @@ from parley.language.builtin.spans import Parse
 from parley.language.builtin.tagger import Matrix, Tagger
 from parley.language.builtin.tokens import tokenize
 from parley.language.builtin.wishes import Wish
+from parley.language.dialogue.facts import asks_to_keep
 from parley.messages.status import ActionInfo
 from parley.umrf.kinds import parameters_of, words_of_name
 
@@ -170,7 +171,7 @@ class OwnActions:
     ) -> OwnAction | None:
         """The action that an order means; None if it means none, or one that its frame leads to."""
         phrased = [own for item in known if (own := self._phrased(clause, item, framed)) is not None]
-        if phrased or not clause.orders:
+        if phrased or not clause.orders or asks_to_keep(clause.text):
             return phrased[0] if len(phrased) == 1 else None
         agreed = _is_framed(clause, reading)
         rivals = [item for item in known if item.action.name not in framed]

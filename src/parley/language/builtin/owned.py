@@ -15,6 +15,9 @@ from parley.messages.status import Kind
 
 __all__ = ["Grounds", "owned"]
 
+_HOLE = re.compile(r"(\b(?:the|an?) )?\{([^{}]*)\}")
+_DETERMINED = re.compile(r"(?:the|an?|my|your|his|her|its|our|their|this|that) ", re.IGNORECASE)
+
 Grounds = Callable[[Filler, Kind, frozenset[str]], "tuple[str, str] | Ask"]
 """From words for a place, thing or person to the argument and how the reply says it, or a question."""
 
@@ -55,5 +58,11 @@ def _in_words(own: OwnAction, said: dict[str, str]) -> str:
     """What is done: a phrase of the maker that holds all that was said, else the description with it."""
     for phrase in (own.action.label, *own.action.phrases):
         if phrase and set(re.findall(r"\{([^{}]*)\}", phrase)) == set(said):
-            return re.sub(r"\{([^{}]*)\}", lambda hole: said[hole[1]], phrase[:1].lower() + phrase[1:])
+            return _HOLE.sub(lambda hole: _put(hole, said), phrase[:1].lower() + phrase[1:])
     return f"{own.label}: {', '.join(said.values())}" if said else own.label
+
+
+def _put(hole: re.Match[str], said: dict[str, str]) -> str:
+    """What was said for a hole, with one article: the phrase's or its own."""
+    article, words = hole[1] or "", said[hole[2]]
+    return words if _DETERMINED.match(words) else article + words

@@ -293,9 +293,8 @@ class Planner:
         text: str, words: tuple[str, ...], wishes: tuple[Wish, ...]
     ) -> tuple[tuple[Wish, ...], int] | Ask:
         """Wishes that are done so often: all of them, or the last alone where that needs no way."""
-        count = 2 if words == ("twice",) else 3 if words == ("thrice",) else 0
         amount = amount_of(words[:1])
-        times = count or (int(amount.value) if amount else 0)
+        times = int(amount.value) if amount else 0
         if not 1 <= times <= 10:
             return Ask(f"I cannot do that {text} on end. How many times shall I do it?")
         own = wishes[0].own.done(times) if len(wishes) == 1 and wishes[0].own else None

@@ -18,8 +18,8 @@ from parley.language.stop_words import calls_to_stop, has_stop_word
 from parley.messages.memory import MemoryEntry
 
 __all__ = [
-    "forgotten", "in_mind", "is_report", "is_wish", "kept_in_mind", "moved_fact", "other_fact",
-    "taken_back", "worth_keeping",
+    "asks_to_keep", "forgotten", "in_mind", "is_report", "is_wish", "kept_in_mind", "moved_fact",
+    "other_fact", "taken_back", "worth_keeping",
 ]  # fmt: skip
 
 _PRONOUNS: Final = frozenset({"he", "she", "they", "it", "this", "that", "these", "those", "they're", "it's"})
@@ -51,7 +51,7 @@ _NAME: Final = re.compile(
 _KEEP: Final = re.compile(
     r"(?:please )?(?:remember|note|keep in mind|don't forget|do not forget|memorise|memorize)\b"
 )
-
+_SO: Final = re.compile(rf",? that (?:[\w'-]+ )+?{_BEING.pattern}")
 
 _WISHING: Final = re.compile(
     r"\b(?:should|shall|must|ought|has to|have to|had better|need(?:s|ed)?|necessary|want(?:s|ed)?|"
@@ -86,6 +86,12 @@ def is_report(text: str) -> bool:
     """Whether a message tells what has just happened, or is amiss, and does not ask to remember it."""
     low = text.lower().replace("’", "'")
     return not _KEEP.search(low) and "should" not in low and _HAPPENED.search(low) is not None
+
+
+def asks_to_keep(text: str) -> bool:
+    """Whether somebody asks to remember what is so: "remember that the box is full"."""
+    asked = _KEEP.search(text.lower().replace("’", "'"))
+    return asked is not None and _SO.match(asked.string, asked.end()) is not None
 
 
 def kept_in_mind(facts: Sequence[str]) -> str:
