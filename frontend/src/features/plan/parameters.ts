@@ -15,12 +15,12 @@ export function labelOf(name: string, about: ParameterInfo | undefined): string 
   return meaning ? sentence(meaning) : inWords(name);
 }
 
-/** Parameters as rows: coordinates of one place are drawn together. `about` is what is known of some of them. */
-export function rowsOf(parameters: readonly ParameterView[], about: Readonly<Record<string, ParameterInfo>> = {}): readonly Row[] {
+/** Parameters as rows: coordinates of one place are drawn together. `about` is what is known of some of them; ids are for programs. */
+export function rowsOf(all: readonly ParameterView[], about: Readonly<Record<string, ParameterInfo>> = {}): readonly Row[] {
   const rows: Row[] = [];
   const places = new Map<string, Map<string, unknown>>();
+  const parameters = all.filter(({ name }) => about[name]?.kind !== 'id');
   for (const parameter of parameters) {
-    if (about[parameter.name]?.kind === 'id') continue;
     const axis = AXIS.exec(parameter.name);
     const turn = axis ? null : TURN.exec(parameter.name);
     const match = axis ?? turn;
