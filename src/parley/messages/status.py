@@ -100,6 +100,11 @@ class ActionInfo(Payload):
         """Whether it finds out where something is and does nothing else."""
         return set(self.effects) == {"locates"}
 
+    @property
+    def for_programs(self) -> bool:
+        """Whether it takes what only programs know: nobody asks for it in words."""
+        return any(told.kind == "id" for told in self.parameters.values())
+
 
 OrderState = Literal["open", "failed", "done", "left"]
 """How far an engine is with the steps of one order: `failed`: at one of them, and it stands; `left`: nothing

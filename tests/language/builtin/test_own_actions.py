@@ -8,6 +8,7 @@ import pytest
 
 from parley.language.builtin.decision import Ask, Decision, Do, Remember
 from parley.language.builtin.engine import BuiltinLanguage
+from parley.language.dialogue.answers import abilities
 from parley.messages.status import ActionInfo, ParameterInfo
 from tests.language.builtin.worlds import CATALOGUE, situation
 
@@ -169,3 +170,11 @@ def test_the_very_words_of_an_action_mean_it_whatever_words_they_are() -> None:
         decision = ENGINE.decide(situation(info.phrases[0], catalogue=catalogue))
         assert isinstance(decision, Do)
         assert [deed.skill.action.name for deed in decision.deeds] == [info.name]
+
+
+def test_what_only_programs_ask_for_is_not_told_as_something_to_ask_for() -> None:
+    told = {"order": ParameterInfo(kind="id")}
+    wait = ActionInfo(name="l", inputs={"order": "string"}, parameters=told, description="Meet a mate.")
+    assert "meet a mate" not in abilities((wait, *TRADE))
+    assert "sound the horn" in abilities((wait, *TRADE))
+    assert not done(decide("meet a mate", (wait,)))

@@ -137,8 +137,7 @@ class OwnActions:
         known = []
         for info in catalogue:
             said = [text for text in (info.description, *info.phrases, *info.examples) if text]
-            programs = any(one.kind == "id" for one in parameters_of(info).values())
-            if programs or any("::" in name for name in info.inputs):
+            if info.for_programs or any("::" in name for name in info.inputs):
                 continue  # nobody says a pose in words, nor by what programs know something
             plain = [_without_holes(text) for text in said] or [" ".join(words_of_name(info.name))]
             words = frozenset(stem(word) for text in plain for word in _words(text))

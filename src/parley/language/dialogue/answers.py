@@ -374,7 +374,7 @@ def _battery(situation: Situation, about: str) -> str:
 
 def abilities(catalogue: Sequence[ActionInfo]) -> str:
     """What can be asked for, in the words of the actions' makers."""
-    shown = [info for info in catalogue if not info.only_finds]
+    shown = [info for info in catalogue if not (info.only_finds or info.for_programs)]
     parts = [(re.split(r"[.;]", info.description)[0] or info.label or info.name) for info in shown]
     return "; ".join(dict.fromkeys(f"{part[:1].lower()}{part[1:]}" for part in parts))
 
