@@ -152,6 +152,19 @@ async def test_thanks_wishes_and_insults_are_no_facts(message: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("message", "reply"),
+    [
+        ("thanks, that's all", "You are welcome."),
+        ("that's it, thank you", "You are welcome."),
+        ("good night", "Goodbye."),
+    ],
+)
+async def test_who_ends_a_talk_is_not_greeted(message: str, reply: str) -> None:
+    answer = await BuiltinLanguage().interpret(situation(message))
+    assert answer.message_response == reply
+
+
+@pytest.mark.parametrize(
     ("message", "kept"),
     [
         ("Kim is in the yard. Go to the moon.", ["Kim is in the yard"]),

@@ -51,9 +51,10 @@ from parley.world.object_map import MapObject
 __all__ = ["afterwards", "beforehand", "no_facts", "only_names", "promised", "spoken_of"]
 
 
+_ALL: Final = r"that(?: is|'s| was| will be|'ll be) (?:all|it|everything)(?: for (?:now|today|the moment))?"
 _SOCIAL: Final = re.compile(
     r"(?:good (?:morning|day|evening|night|afternoon)|hello|hi|hey|bye|goodbye|see you(?: later)?|"
-    r"thank(?:s| you)(?: \w+)*|(?:that (?:was|is)|that's) (?:nice|great|good|perfect|lovely|fine|quick|fast)|"
+    rf"thank(?:s| you)(?: \w+)*(?: {_ALL})?|{_ALL}(?: thanks| thank you)?|(?:that (?:was|is)|that's) (?:nice|great|good|perfect|lovely|fine|quick|fast)|"
     r"cheers|well done|good (?:job|boy|robot|work)|nice|great|perfect|cool|wow|haha+.*|lol|sorry|"
     r"you(?: are|'re| r) .+)"
 )
@@ -308,11 +309,10 @@ def afterwards(
         return asked
     offers = isinstance(made, Ask) and made.offer
     if isinstance(made, Ask | Answer) and not offers and _SOCIAL.fullmatch(bare):
-        return Answer(
-            "You are welcome."
-            if bare.startswith(("thank", "cheers", "that"))
-            else "Hello. What can I do for you?"
-        )
+        if bare.startswith(("thank", "cheers", "that")):
+            return Answer("You are welcome.")
+        leaves = bare.startswith(("bye", "goodbye", "good night", "see you"))
+        return Answer("Goodbye." if leaves else "Hello. What can I do for you?")
     if (
         isinstance(made, Ask | Answer)
         and not offers
