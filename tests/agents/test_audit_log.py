@@ -13,6 +13,7 @@ from parley.agents.audit_log import AuditLog
 from parley.clock import WallClock
 from parley.gate.audit_store import AuditStore
 from parley.gate.audit_text import told, who_of
+from parley.gate.heard import labels
 from parley.messages import topics
 from parley.messages.audit import AuditEntry, AuditEvent, AuditList, GetAudit
 from parley.messages.chat import ActionCall, ChatAction, ChatInput
@@ -24,6 +25,7 @@ from parley.messages.status import (
     GraphEvent,
     PlanDecision,
     PlanProposal,
+    PlanStep,
     Rejection,
     RejectionProblem,
     StopCommand,
@@ -76,6 +78,16 @@ async def rig(waiting: int = 100) -> AsyncIterator[Rig]:
         AuditLog(transport, store, WallClock(), tell=tell, retry_s=0.001, waiting=waiting) as node,
     ):
         yield Rig(transport, store, node, trouble, said)
+
+
+@pytest.mark.parametrize(
+    ("state", "shown"), [("finished", ["Go there"]), ("failed", ["Find it", "Go there"])]
+)
+def test_a_search_stands_in_the_log_where_it_has_something_of_its_own_to_say(
+    state: str, shown: list[str]
+) -> None:
+    found = PlanStep.model_validate({"action": GO, "label": "Find it", "state": state, "for_next": True})
+    assert labels([found, PlanStep(action=GO, label="Go there")]) == shown
 
 
 async def test_an_order_stands_in_the_log_from_the_words_to_the_end() -> None:

@@ -243,8 +243,12 @@ class Heard:
 
 
 def labels(steps: Sequence[ActionCall] | Sequence[PlanStep]) -> list[str]:
-    """What each step does, in words."""
-    return [_label(step) for step in steps]
+    """What each step does, in words; a search for the next one where it has something of its own to say."""
+    return [_label(step) for step in steps if not _is_hidden(step)]
+
+
+def _is_hidden(step: ActionCall | PlanStep) -> bool:
+    return isinstance(step, PlanStep) and step.for_next and step.state not in ("failed", "waiting", "stopped")
 
 
 def _label(step: ActionCall | PlanStep) -> str:
