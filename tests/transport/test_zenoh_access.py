@@ -192,7 +192,7 @@ async def test_all_parts_do_their_work_and_nothing_of_it_is_denied(tmp_path: Pat
         await operator.until(lambda: any(report.state == "reset" for report in operator.stop_reports))
         operator.say("what do you remember?", "Ada")
         await operator.until(lambda: len(operator.said) > 1)
-    assert guarded.log == b""
+    assert guarded.log.decode() == ""
 
 
 def test_the_file_says_what_is_wrong_with_it() -> None:

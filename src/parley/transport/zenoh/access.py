@@ -65,8 +65,8 @@ _ROBOT: Final = Allowed(
     ),
     hears=_names(
         topics.ACTOR_STATUS, topics.CHAT_FEEDBACK, topics.CHAT_INPUT, topics.GRAPH_MODIFY, topics.GRAPH_PAUSE,
-        topics.GRAPH_PAUSE_TEMOTO, topics.GRAPH_RESUME, topics.GRAPH_START, topics.GRAPH_STOP, topics.PLAN,
-        topics.RULES_IN_FORCE, topics.STEP, topics.STOP, topics.SYNC,
+        topics.GRAPH_PAUSE_TEMOTO, topics.GRAPH_RESUME, topics.GRAPH_START, topics.GRAPH_STOP, topics.PASSAGES,
+        topics.PLACES_KEPT, topics.PLAN, topics.RULES_IN_FORCE, topics.STEP, topics.STOP, topics.SYNC,
     ),
     asks=_names(topics.GET_MEMORY),
     answers=_names(topics.GRAPH_GET),
@@ -76,7 +76,14 @@ _AGENT: Final = Allowed(
     says=(*_SHARED, f"{_FEEDS}/{_ANY}"),
     hears=(*_SHARED, *_OF_ROBOTS),
     asks=(*_ANSWERED, "*/umrf_graph_get", "*/parley_unfinished"),
-    answers=_names(topics.GET_MEMORY, topics.GET_INCIDENTS, topics.GET_MAP, topics.GET_AUDIT, topics.RULES),
+    answers=_names(
+        topics.GET_MEMORY,
+        topics.GET_INCIDENTS,
+        topics.GET_MAP,
+        topics.GET_AUDIT,
+        topics.RULES,
+        topics.PLACES,
+    ),
 )
 _WATCHER: Final = Allowed(hears=(*_SHARED, *_OF_ROBOTS, f"{_FEEDS}/{_ANY}"))
 _PAGE: Final = Allowed(
