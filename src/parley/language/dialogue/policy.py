@@ -54,7 +54,8 @@ __all__ = ["afterwards", "beforehand", "no_facts", "only_names", "promised", "sp
 _ALL: Final = r"that(?: is|'s| was| will be|'ll be) (?:all|it|everything)(?: for (?:now|today|the moment))?"
 _SOCIAL: Final = re.compile(
     r"(?:good (?:morning|day|evening|night|afternoon)|hello|hi|hey|bye|goodbye|see you(?: later)?|"
-    rf"thank(?:s| you)(?: \w+)*(?: {_ALL})?|{_ALL}(?: thanks| thank you)?|(?:that (?:was|is)|that's) (?:nice|great|good|perfect|lovely|fine|quick|fast)|"
+    rf"thank(?:s| you)(?: \w+)*(?: {_ALL})?|{_ALL}(?: thanks| thank you)?|"
+    r"(?:that (?:was|is)|that's) (?:nice|great|good|perfect|lovely|fine|quick|fast)|"
     r"cheers|well done|good (?:job|boy|robot|work)|nice|great|perfect|cool|wow|haha+.*|lol|sorry|"
     r"you(?: are|'re| r) .+)"
 )
