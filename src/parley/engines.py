@@ -224,9 +224,9 @@ class Engines(OpenedTogether):
         heard = await self._transport.subscribe(topics.PLACES_KEPT, self._on_places, depth=1)
         stack.push_async_callback(heard.close)
         self.tell_sites()
+        stack.push_async_callback((await self.journal.heed_plans(self._transport)).close)
         for name in self.names:
             await self._open_robot(stack, name, self.journal, mates)
-        stack.push_async_callback((await self.journal.heed_plans(self._transport)).close)
         stack.push_async_callback(self.journal.end)
         stack.callback(self._engines.clear)
         stack.callback(self._transport.on_endpoints_changed(self._greet))

@@ -14,6 +14,10 @@ from typing import Any
 from parley.clock import WallClock
 from parley.engine import journal_file as room
 from parley.engine.journal import Interrupted, Journal
+from parley.messages import topics
+from parley.messages.status import PlanUpdate
+from parley.messages.wire import to_string
+from parley.transport.local import LocalTransport
 from parley.umrf.executor import GraphRun
 from parley.umrf.io import read_graph
 from parley.umrf.model import GraphState, NodeState
@@ -106,6 +110,19 @@ async def test_a_second_kill_still_knows_until_something_new_begins(tmp_path: Pa
     killed(file)
     assert [was.graph.name for was in await found(file)] == ["errand"]
     assert [state for (state,) in rows(file, "SELECT settled FROM run")] == [1, 0]
+
+
+async def test_a_plan_that_is_given_up_just_before_the_end_is_not_offered_again(tmp_path: Path) -> None:
+    file = tmp_path / "journal.db"
+    killed(file)
+    async with LocalTransport() as transport, await Journal.open(file, WallClock()) as journal:
+        heard = await journal.heed_plans(transport)
+        plans = transport.publisher(topics.PLAN)
+        plans.publish(to_string(PlanUpdate(target="A", state="held", steps=())))
+        plans.publish(to_string(PlanUpdate(target="A", state="idle", steps=())))
+        await asyncio.sleep(0)  # heard, and not written yet
+        await heard.close()
+    assert await found(file) == ()
 
 
 async def test_how_everything_that_ran_stands_is_written_down(tmp_path: Path) -> None:

@@ -28,7 +28,6 @@ from parley.engine.journal_file import (
     GraphText,
     prepare,
     read_left,
-    settle,
     write,
 )
 from parley.engine.journal_older import put_aside_other_form
@@ -129,6 +128,9 @@ class Journal:
         elif transition.kind == "graph" and transition.cause == "modify":
             self._batch.modified.append((number, run.snapshot()))
         self._changed[run] = (number, transition.unix_ms)
+        self._begin_writing()
+
+    def _begin_writing(self) -> None:
         if self._writer is None:
             self._writer = asyncio.get_running_loop().create_task(self._write(), name="journal")
 
@@ -151,11 +153,14 @@ class Journal:
             await asyncio.wait([self._writer])
 
     async def heed_plans(self, transport: Transport) -> Subscription:
-        """Offer no more what an earlier process left of a robot once its plan is given up."""
+        """Offer no more what an earlier process left of a robot once its plan is given up.
+
+        To be called before the first robot is there: a plan that nobody heard of is not given up.
+        """
         left = {was.actor for was in self.interrupted}
         held: set[str] = set()
 
-        async def hear(message: String) -> None:
+        def hear(message: String) -> None:
             try:
                 told = decode_plan(message.data)
             except InvalidMessageError:
@@ -166,10 +171,8 @@ class Journal:
                 held.add(told.target)
             elif told.target in held:  # before, whoever plans has not heard yet what was left
                 left.discard(told.target)
-                try:
-                    await self._database.run(functools.partial(settle, actor=told.target, first=self._first))
-                except StoreError as error:
-                    log.error("journal cannot be written", reason=str(error))
+                self._batch.given_up.append(told.target)
+                self._begin_writing()
 
         return await transport.subscribe(topics.PLAN, hear)
 
@@ -196,11 +199,12 @@ class Journal:
         """A batch could not be written: what is in it is written with the next change."""
         self._batch.begun[:0] = batch.begun[-KEPT_RUNS:]
         self._batch.modified[:0] = batch.modified[-KEPT_RUNS:]
+        self._batch.given_up[:0] = batch.given_up
         self._unsaved.update(changed)
 
     async def _write(self) -> None:
         try:
-            while self._changed:
+            while self._changed or (self._batch.given_up and not self._broken):
                 changed = list(self._changed)
                 batch = self._take()
                 try:

@@ -28,7 +28,6 @@ __all__ = [
     "GraphText",
     "prepare",
     "read_left",
-    "settle",
     "write",
 ]
 
@@ -88,6 +87,8 @@ class Batch:
         default_factory=list
     )
     """Number, time, and what `GraphRun.save` gave."""
+    given_up: list[str] = field(default_factory=list)
+    """Actors of whom nobody goes on with what an earlier process left."""
 
 
 def prepare(connection: sqlite3.Connection) -> None:
@@ -113,6 +114,8 @@ def write(connection: sqlite3.Connection, *, batch: Batch, first: int) -> None:
     """
     connection.execute("BEGIN IMMEDIATE")
     try:
+        for actor in batch.given_up:
+            _settle(connection, actor, first)
         for begun in batch.begun:
             _write_begun(connection, *begun, first=first)
         for number, graph in batch.modified:
@@ -149,7 +152,7 @@ def _write_begun(
     first: int,
 ) -> None:
     # Whoever begins something new has done with what an earlier process left.
-    settle(connection, actor=actor, first=first)
+    _settle(connection, actor, first)
     connection.execute(
         "INSERT INTO run (id, actor, graph_name, outer, state, started_unix_ms, changed_unix_ms, shared,"
         " graph_started) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
@@ -171,14 +174,8 @@ def _tidy(connection: sqlite3.Connection, batch: Batch) -> None:
         connection.execute("DELETE FROM node WHERE run <= ?", (oldest,))
 
 
-def settle(connection: sqlite3.Connection, *, actor: str, first: int) -> None:
-    """Note that nobody goes on with what an earlier process left.
-
-    Args:
-        connection: To the file.
-        actor: Of whom.
-        first: The number of the first run of this process.
-    """
+def _settle(connection: sqlite3.Connection, actor: str, first: int) -> None:
+    """Note that nobody goes on with what an earlier process left of `actor`."""
     connection.execute(
         "UPDATE run SET settled = 1 WHERE settled = 0 AND actor = ? AND id < ?", (actor, first)
     )
