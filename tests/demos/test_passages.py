@@ -7,12 +7,13 @@ import contextlib
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
+from parley.config import SystemConfig
 from parley.messages import topics
 from parley.messages.passages import PassageList
 from parley.messages.wire import decode
 from parley.sim.world_file import WorldFile
 from parley.system import System
-from tests.demos.house import FULL_SPEED, PATIENCE_S, House, running
+from tests.demos.house import PATIENCE_S, House, running
 
 WORLD = """
 name: two halls
@@ -42,9 +43,9 @@ ROBOTS = ("Ada", "Kim", "Lee")
 
 
 @asynccontextmanager
-async def halls() -> AsyncIterator[tuple[House, list[PassageList]]]:
+async def halls(speed: float | None = None) -> AsyncIterator[tuple[House, list[PassageList]]]:
     """The halls, and who was told to be in the passage; nobody may ever meet there."""
-    system = System(WorldFile.parse(WORLD), FULL_SPEED)
+    system = System(WorldFile.parse(WORLD), SystemConfig(speed=speed))
     (passage,) = system.objects.areas
     seen: list[PassageList] = []
     most = 0
@@ -86,7 +87,7 @@ async def test_robots_go_through_a_narrow_doorway_one_after_the_other() -> None:
 
 
 async def test_who_is_stopped_in_the_doorway_is_waited_for_and_who_waits_can_be_stopped() -> None:
-    async with halls() as (home, _):
+    async with halls(speed=4) as (home, _):  # a moment in the doorway is to be seen
         await home.say("go to the lamp", "Ada")
         await home.observer.until(lambda: _in_passage(home, "Ada"), timeout_s=PATIENCE_S)
         await home.say("stop", "Ada")
