@@ -104,6 +104,12 @@ def test_a_script_drives_a_robot_of_ones_own() -> None:
     assert steps.count("finished") == 2
 
 
+def test_a_robot_without_a_map_is_turned_from_python() -> None:
+    said, steps = run("without_a_map.py")
+    assert "turn left by 90 degrees" in said
+    assert steps.count("finished") == 1
+
+
 def test_a_notebook_remembers_asks_and_waits_for_a_yes() -> None:
     remembered, answer, asks, _, states = run("notebook.py")
     assert "bookshelf" in remembered

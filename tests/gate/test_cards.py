@@ -49,7 +49,7 @@ def test_a_pose_is_told_by_the_map() -> None:
 
 
 def test_an_action_without_words_of_its_own_is_told_by_its_name_and_every_argument() -> None:
-    assert labels_of([call("HonkLoudly", times=3)], CATALOGUE) == ("Honk loudly: times “3”",)
+    assert labels_of([call("HonkLoudly", times=3)], CATALOGUE) == ("Honk loudly: times 3",)
     assert labels_of([call("Unknown_Thing", where="hall")], CATALOGUE) == ("Unknown thing: where “hall”",)
 
 

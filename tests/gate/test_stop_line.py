@@ -143,6 +143,8 @@ def test_without_room_on_disk_the_robot_is_halted_and_the_next_process_takes_it_
     assert not outcome.written
     assert line.written.result(10)
     assert StopLine(file).latched("Ada")
+    (tmp_path / "stops.json.new").rmdir()
+    line.close()  # else it would try again, and say so, while other tests run
 
 
 async def test_a_blocked_loop_delays_nobody() -> None:

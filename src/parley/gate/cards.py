@@ -24,6 +24,7 @@ __all__ = ["Labels", "command_label", "digest_of", "for_next", "labels_of", "lin
 Labels = tuple[Sentence, ...]
 
 _HOLE: Final = re.compile(r"\{([^{}]*)\}")
+_NUMBER: Final = re.compile(r"-?[0-9.]+")
 _POSE: Final = "pose::"
 _X, _Y = f"{_POSE}position::x", f"{_POSE}position::y"
 _NEAR_M: Final = 2.0
@@ -133,7 +134,7 @@ def _label(call: ActionCall, info: ActionInfo | None, place: str | Sentence) -> 
     if phrase:
         phrase = phrase[:1].upper() + phrase[1:]
         told = {hole: arguments.get(hole, place) for hole in _HOLE.findall(phrase)}
-        fills = {hole: text if isinstance(text, Sentence) else f"“{text}”" for hole, text in told.items()}
+        fills = {hole: text if isinstance(text, Sentence) else _in_marks(text) for hole, text in told.items()}
         what = Sentence.of(phrase, dict(fills))
     else:
         words = in_words(call.name)
@@ -143,7 +144,9 @@ def _label(call: ActionCall, info: ActionInfo | None, place: str | Sentence) -> 
     rest = {name: value for name, value in arguments.items() if name not in named | hidden}
     if not rest:
         return what
-    given = ", ".join(f"{in_words(name.rpartition('::')[2])} “{value}”" for name, value in rest.items())
+    given = ", ".join(
+        f"{in_words(name.rpartition('::')[2])} {_in_marks(value)}" for name, value in rest.items()
+    )
     return sentence("{what}: {arguments}", what=what, arguments=given)
 
 
@@ -213,6 +216,11 @@ def _said(value: object) -> str:
     if isinstance(value, float):
         return f"{value:g}"
     return _quoted(", ".join(map(str, value)) if isinstance(value, list | tuple) else str(value))
+
+
+def _in_marks(text: str) -> str:
+    """As it stands in a line: what could be words of ours, which a number cannot, in quotation marks."""
+    return text if _NUMBER.fullmatch(text) else f"“{text}”"
 
 
 def _quoted(text: str) -> str:
