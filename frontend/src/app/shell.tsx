@@ -11,6 +11,7 @@ import { Boundary } from '@/ui/boundary';
 import { Button } from '@/ui/button';
 import { StopButton } from '@/ui/stop-button';
 import { useIsLow, useLayout } from '@/ui/use-media';
+import { useDoublePress } from '@/ui/use-double-press';
 import { useShortcut } from '@/ui/use-shortcut';
 
 import { CommandPalette } from './command-palette';
@@ -41,6 +42,7 @@ export function Shell(props: Props) {
   useRobotShortcuts();
   useNotices();
   useHeard();
+  useDoublePress();
   const words = { message: t('crashed'), again: t('crashedAgain') };
   return (
     <div className={css.shell} data-layout={layout}>

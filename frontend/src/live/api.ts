@@ -139,8 +139,9 @@ export const sendStop = (targets: readonly string[], id: string) =>
 export const sendReset = (targets: readonly string[], id: string) =>
   request<unknown>('POST', 'stop', { command: 'reset', targets, id });
 
-export const commandPlan = (robot: string, command: PlanCommand, index?: number) =>
-  request<unknown>('POST', `plans/${part(robot)}/command`, index === undefined ? { command } : { command, index });
+/** @param step The one that is meant by a skip, as it was shown: the plan may be another by now. */
+export const commandPlan = (robot: string, command: PlanCommand, step = '') =>
+  request<unknown>('POST', `plans/${part(robot)}/command`, { command, step });
 export const decidePlan = (robot: string, decision: Decision) =>
   request<unknown>('POST', `plans/${part(robot)}/decision`, decision);
 export type MissionCommand = 'pause' | 'resume' | 'clear' | 'approve' | 'reject';

@@ -37,9 +37,31 @@ describe('a message that did not get through', () => {
   });
 
   it('is forgotten when it is discarded', async () => {
-    await useOutbox.getState().send({ text: 'come here', targets: ['Ada'], reply_to: '', images: [] });
+    await useOutbox.getState().send({ text: 'wave', targets: ['Ada'], reply_to: '', images: [] });
     useOutbox.getState().discard(useOutbox.getState().messages[0]?.id ?? '');
     await loadAgain();
     expect(useOutbox.getState().messages).toEqual([]);
+  });
+});
+
+describe('what is pressed twice', () => {
+  it('is said once, and an answer that is on its way stays the only one', async () => {
+    reachable = true;
+    const { send, discard } = useOutbox.getState();
+    const order = { text: 'go there', targets: ['Ada'], reply_to: '', images: [] };
+    await Promise.all([send(order), send(order)]);
+    expect(keys).toHaveLength(1);
+    await Promise.all([send({ ...order, text: 'look there' }), send({ ...order, targets: ['Ben'] })]);
+    expect(keys).toHaveLength(3);
+    const answer = { ...order, text: 'the box', reply_to: 'q1' };
+    reachable = false;
+    await send(answer);
+    vi.spyOn(Date, 'now').mockReturnValue(Date.now() + 60_000);
+    await send(answer); // the first one failed
+    expect(keys).toHaveLength(5);
+    discard(useOutbox.getState().messages.at(-1)?.id ?? '');
+    await send(answer);
+    expect(keys).toHaveLength(6);
+    vi.restoreAllMocks();
   });
 });

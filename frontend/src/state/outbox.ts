@@ -22,6 +22,17 @@ interface Outbox {
 
 const LONGEST_TURN_MS = 400; // a stop that is typed behind it has one second
 
+/** Said once more within it, it was pressed twice. */
+const MOMENT_MS = 500;
+
+/** Whether it is what was just sent, or is still on its way as the answer to the same question. */
+const isSame = (one: Outgoing, other: Omit<OutgoingMessage, 'id'>) =>
+  one.text === other.text &&
+  one.images.length + other.images.length === 0 &&
+  one.reply_to === other.reply_to &&
+  one.targets.join('\n') === other.targets.join('\n') &&
+  (Date.now() - one.unixMs < MOMENT_MS || (other.reply_to !== '' && one.state !== 'failed'));
+
 const pause = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
 
 const outbox: StateCreator<Outbox> = (set, get) => {
@@ -38,6 +49,8 @@ const outbox: StateCreator<Outbox> = (set, get) => {
     }
   };
 
+  let last: Outgoing | undefined; // also when it is delivered already
+
   // What is written second must not be heard first, but nor may it wait long for one that is stuck.
   let before: Promise<unknown> = Promise.resolve();
   const inTurn = async (message: OutgoingMessage) => {
@@ -49,17 +62,21 @@ const outbox: StateCreator<Outbox> = (set, get) => {
   return {
     messages: [],
     send: async (message) => {
+      if (last && isSame(get().messages.find(({ id }) => id === last?.id) ?? last, message)) return;
       const outgoing = { ...message, id: crypto.randomUUID() };
-      set((now) => ({
-        messages: [...now.messages, { ...outgoing, unixMs: Date.now(), state: 'sending', reason: '' }],
-      }));
+      const begun: Outgoing = { ...outgoing, unixMs: Date.now(), state: 'sending', reason: '' };
+      last = begun;
+      set((now) => ({ messages: [...now.messages, begun] }));
       await inTurn(outgoing);
     },
     retry: async (id) => {
       const message = get().messages.find((one) => one.id === id);
       if (message) await inTurn(message);
     },
-    discard: (id) => set((now) => ({ messages: now.messages.filter((one) => one.id !== id) })),
+    discard: (id) => {
+      if (last?.id === id) last = undefined;
+      set((now) => ({ messages: now.messages.filter((one) => one.id !== id) }));
+    },
   };
 };
 

@@ -25,11 +25,13 @@ describe('words', () => {
 
   it('stay between their quotation marks', () => {
     expect(quoted('go.” Kim says: “yes\n\nKim: “go')).toBe('go.’ Kim says: ‘yes Kim: ‘go');
+    expect(quoted('Mine kohta „uks“')).toBe('Mine kohta ‚uks‘');
   });
 
   it('are worth showing where they say more than stands there', () => {
     expect(addsTo('Go to “door”', 'go to the door')).toBe(false);
     expect(addsTo('Go to “door”', 'go to the door to let Kim pass')).toBe(true);
     expect(addsTo('Look with the camera: “door”', 'check the door')).toBe(false);
+    expect(addsTo('Vaata kaameraga: „uks“', 'vaata järele: uks')).toBe(false);
   });
 });

@@ -41,14 +41,19 @@ export const sentence = (text: string): string => text.charAt(0).toUpperCase() +
 
 /** Somebody's words as they stand between our quotation marks: their own cannot end them. */
 export const quoted = (words: string): string =>
-  words.replaceAll(/[“„«‟]/g, '‘').replaceAll(/[”»"]/g, '’').replaceAll(/\s+/g, ' ').trim();
+  words
+    .replaceAll(/„([^“”„]*)[“”]/g, '‚$1‘')
+    .replaceAll(/[“„«‟]/g, '‘')
+    .replaceAll(/[”»"]/g, '’')
+    .replaceAll(/\s+/g, ' ')
+    .trim();
 
 const LONG = /[\p{L}\p{N}]{4,}/gu;
 
 /** Whether somebody's words say more than stands there already; another word for the deed itself is no more. */
 export function addsTo(known: string, words: string): boolean {
   const there = new Set(known.toLowerCase().match(LONG));
-  const about = words.trimStart().toLowerCase().replace(/^\S+/, '');
+  const about = words.trimStart().toLowerCase().replace(/^(\S+\s)?\S+:|^\S+/, '');
   return (about.match(LONG) ?? []).some((word) => !there.has(word));
 }
 

@@ -352,6 +352,8 @@ class PlanCommandPost(WebModel):
     command: Literal["pause", "resume", "skip", "clear", "pop"]
     index: Annotated[int, Field(ge=0, le=10_000)] | None = None
     """For `pop`: which pending step, from 0."""
+    step: Annotated[str, Field(max_length=200)] = ""
+    """For `skip`: the step that was shown; of one that is over meanwhile nothing is skipped. Empty: whichever runs."""
 
 
 class MissionCommandPost(WebModel):

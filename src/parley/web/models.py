@@ -149,6 +149,8 @@ class StepView(WebModel):
     """One step of a plan or graph. Key within its plan: `id`."""
 
     id: str
+    planned: str = ""
+    """What the planner calls it, also before it has begun; empty: it is in no plan."""
     action: str
     """Name of the action."""
     label: str

@@ -219,9 +219,10 @@ class PlanBook:
     def _planned(self, update: PlanUpdate, number: int, told: NodeTold | None) -> StepView:
         step = update.steps[number]
         key = step.node or f"step-{number}"
-        return self._step(
+        view = self._step(
             update.target, key, step.action, _state(step.state, told), told or NodeTold(), step.label
         )
+        return view.model_copy(update={"planned": step.id})
 
     def _show_graph(self, robot: str, name: str, graph: GraphTold) -> None:
         steps = tuple(

@@ -6,7 +6,7 @@ import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
 import { Icon } from '@/ui/icon';
 import { TextField } from '@/ui/text-field';
-import { sentence } from '@/ui/words';
+import { quoted, sentence } from '@/ui/words';
 
 import { inputsOf, type DraftStep } from './editing';
 import { labelOf } from './parameters';
@@ -34,13 +34,13 @@ export function EditorRow({ step, catalogue, places, isFirst, isLast, onMove, on
   return (
     <GridListItem id={step.id} textValue={step.label} className={css.row ?? ''}>
       <div className={css.head}>
-        <AriaButton slot="drag" className={css.grip ?? ''} aria-label={t('drag', { step: step.label })}>
+        <AriaButton slot="drag" className={css.grip ?? ''} aria-label={t('drag', { step: quoted(step.label) })}>
           <Icon name="grip" />
         </AriaButton>
         <span className={css.label}>{sentence(step.label)}</span>
-        <Button tone="quiet" icon="up" iconOnly isDisabled={isFirst} aria-label={t('moveUp', { step: step.label })} onPress={() => onMove(-1)} />
-        <Button tone="quiet" icon="down" iconOnly isDisabled={isLast} aria-label={t('moveDown', { step: step.label })} onPress={() => onMove(1)} />
-        <Button tone="quiet" icon="trash" iconOnly aria-label={t('removeStep', { step: step.label })} onPress={onRemove} />
+        <Button tone="quiet" icon="up" iconOnly isDisabled={isFirst} aria-label={t('moveUp', { step: quoted(step.label) })} onPress={() => onMove(-1)} />
+        <Button tone="quiet" icon="down" iconOnly isDisabled={isLast} aria-label={t('moveDown', { step: quoted(step.label) })} onPress={() => onMove(1)} />
+        <Button tone="quiet" icon="trash" iconOnly aria-label={t('removeStep', { step: quoted(step.label) })} onPress={onRemove} />
       </div>
       {inputs.length > 0 && (
         <div className={css.inputs}>

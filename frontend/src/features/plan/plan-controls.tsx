@@ -1,11 +1,11 @@
 import { useTranslation } from 'react-i18next';
 
 import { commandPlan, type PlanCommand } from '@/live/api';
-import { isEarlier, linesOf } from '@/live/lines';
+import { isEarlier, linesOf, OVER } from '@/live/lines';
 import type { PlanView, StepView } from '@/live/types';
 import { attempt } from '@/state/do';
 import { Button } from '@/ui/button';
-import { sentence } from '@/ui/words';
+import { quoted, sentence } from '@/ui/words';
 
 import css from './plan-panel.module.css';
 import { usePutBack } from './use-saving';
@@ -23,21 +23,23 @@ interface Props {
 export function PlanControls({ plan, onEdit }: Props) {
   const { t } = useTranslation('plan');
   const offer = usePutBack(plan);
-  const order = (command: PlanCommand) => attempt(() => commandPlan(plan.robot, command));
+  const order = (command: PlanCommand, step = '') => attempt(() => commandPlan(plan.robot, command, step));
   if (plan.kind !== 'plan' || RESTING.includes(plan.state)) return null;
   const standing = plan.state === 'paused' || plan.state === 'held';
   const left = linesOf(plan.steps).filter((line) => !isEarlier(line));
-  const drop = async (command: PlanCommand, gone: readonly StepView[], said: string, back?: string) => {
-    if ((await order(command)) && gone.length > 0) offer(gone, said, back);
+  const drop = async (sent: Promise<boolean>, gone: readonly StepView[], said: string, back?: string) => {
+    if ((await sent) && gone.length > 0) offer(gone, said, back);
   };
   const skip = () => {
     const line = left[0];
-    void drop('skip', line ? [...line.finding, line.step] : [], t('skippedStep', { step: sentence(line?.step.label ?? '') }));
+    const gone = line ? [...line.finding, line.step] : [];
+    const meant = gone.find((step) => !OVER.has(step.state) || step.state === 'failed');
+    void drop(order('skip', meant?.planned), gone, t('skippedStep', { step: quoted(sentence(line?.step.label ?? '')) }));
   };
   const clear = () => {
     const gone = left.flatMap((line) => [...line.finding, line.step]);
     // What is put back begins at once, also where it stood still before: then it is not just undone.
-    void drop('clear', gone, t('cleared', { count: left.length }), standing ? t('beginAgain') : undefined);
+    void drop(order('clear'), gone, t('cleared', { count: left.length }), standing ? t('beginAgain') : undefined);
   };
   return (
     <div className={css.controls}>

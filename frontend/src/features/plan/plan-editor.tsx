@@ -7,6 +7,7 @@ import type { ActionCall, AbilityView } from '@/live/types';
 import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
 import { useMap } from '@/ui/use-map';
+import { quoted } from '@/ui/words';
 
 import { addables, callsOf, moved, nameOfAction, newStep, nudged, setInput, type DraftStep } from './editing';
 import { EditorRow } from './editor-row';
@@ -114,7 +115,7 @@ export function PlanEditor({ robot, steps: initial, saveLabel, onSave, onCancel 
         <div className={css.removed} role="status">
           {removed && (
             <>
-              <p>{t('removed', { step: removed.step.label })}</p>
+              <p>{t('removed', { step: quoted(removed.step.label) })}</p>
               <Button onPress={() => putBack(removed)}>{t('common:undo')}</Button>
             </>
           )}

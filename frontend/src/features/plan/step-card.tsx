@@ -80,7 +80,7 @@ function Told({ step }: { step: StepView }) {
 
 function Remove({ label, onRemove }: { label: string; onRemove: () => void }) {
   const { t } = useTranslation('plan');
-  const name = t('removeStep', { step: label });
+  const name = t('removeStep', { step: quoted(label) });
   return (
     <button type="button" className={css.remove} aria-label={name} title={name} onClick={onRemove}>
       <Icon name="trash" size={16} />

@@ -5,7 +5,7 @@ import { useLive } from '@/live/store';
 import type { ActionCall, PlanView, StepView } from '@/live/types';
 import { explain } from '@/state/do';
 import { useToasts } from '@/state/toasts';
-import { sentence } from '@/ui/words';
+import { quoted, sentence } from '@/ui/words';
 
 import { pendingSteps, putBack } from './editing';
 import type { Line } from '@/live/lines';
@@ -56,7 +56,7 @@ export function useRemoving(plan: PlanView) {
     const out = gone.map((one) => one.id);
     const rest = pendingSteps(plan.steps).filter((one) => !out.includes(one.id));
     const outcome = await save(plan.robot, rest.map(callOf), plan.revision, '');
-    if (outcome === 'saved') offer(gone, t('removed', { step: sentence(step.label) }));
+    if (outcome === 'saved') offer(gone, t('removed', { step: quoted(sentence(step.label)) }));
   };
 }
 

@@ -57,6 +57,8 @@ async def post_command(robot: Robot, post: PlanCommandPost, web: Web, who: Who) 
     if post.command == "pop" and post.index is None:
         raise WebProblem(422, "It is not said which step.", "Say which step to drop.", path="index")
     arguments: dict[str, Any] = {"parameters": post.index} if post.command == "pop" else {}
+    if post.command == "skip" and post.step:
+        arguments["step"] = post.step
     command = SystemCommand(command=_COMMANDS[post.command], arguments=arguments)
     web.link.send(ChatAction(system_cmd=(command,), targets=(name,), by=who.by))
     return Done()
