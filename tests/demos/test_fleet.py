@@ -111,6 +111,61 @@ async def test_whoever_hears_that_all_shall_stop_all_do() -> None:
             await home.state("paused", robot)
 
 
+async def test_robots_are_counted_left_out_by_name_and_never_given_two_parts_at_once() -> None:
+    async with hall() as home:
+        await home.say("two of you go to the loading gate, the other one waits at the dock", "Spot")
+        assert sorted(goals(home).values()) == [["charging dock"], ["loading gate"], ["loading gate"]]
+        for robot in ROBOTS:
+            await home.say("cancel everything", robot)
+        await home.say("everybody but Leo go to the pump", "Spot")
+        assert goals(home) == {"Spot": ["pump"], "TIAGo": ["pump"], "Leo": []}
+        for robot in ROBOTS:
+            await home.say("cancel everything", robot)
+        twice = await home.say("Spot goes to the pump, Leo goes to Area C and Spot goes to Area A", "TIAGo")
+        assert twice.message.endswith("Please tell each of us its part.")
+        await home.say("nobody move", "Spot")
+        back = await home.say("Everybody back!", "Leo")
+        assert back.choices == ("Everybody back to the charging dock",)
+        assert not any(goals(home).values())
+        for question in ("where is Spot?", "what are you all doing?"):
+            assert "Spot says: “" in (await home.say(question, "Leo")).message
+
+
+async def test_what_was_said_to_a_team_is_given_on_as_work_and_not_as_its_parts() -> None:
+    async with hall() as home:
+        await home.say("one of you go to the pump, the others wait at the dock", "Leo")
+        for robot in ROBOTS:
+            await home.say("cancel everything", robot)
+        assert (await home.say("let Spot do that", "Leo")).message.endswith("in full.")
+        await home.say("one of you go to Area A", "Spot")
+        for robot in ROBOTS:
+            await home.say("cancel everything", robot)
+        await home.say("let Leo do that", "Spot")
+        assert goals(home) == {"Spot": [], "TIAGo": [], "Leo": ["Area A"]}
+
+
+async def test_who_was_stopped_goes_with_the_yes_to_something_else_and_not_by_a_step_left_out() -> None:
+    async with hall() as home:
+        await home.say("go to Area A", "TIAGo")
+        await home.say("stop", "TIAGo")
+        await home.state("paused", "TIAGo")
+        await home.say("go to the pump instead", "TIAGo")
+        await home.say("yes", "TIAGo")
+        await home.done("TIAGo")
+        assert home.distance_m("pump_1", "TIAGo") < 1.6
+        assert not any("still standing" in said.message for said in home.observer.said)
+        await home.say("go to Area A, then to Area B", "TIAGo")
+        await home.say("stop", "TIAGo")
+        await home.say("skip it", "TIAGo")
+        await home.observer.until(
+            lambda: any("still standing" in said.message for said in home.observer.said), timeout_s=PATIENCE_S
+        )
+        assert home.observer.state("TIAGo") == "paused"
+        await home.say("carry on", "TIAGo")
+        await home.done("TIAGo")
+        assert home.distance_m("area_b", "TIAGo") < 1.6
+
+
 async def test_who_follows_begins_when_the_other_is_there() -> None:
     async with hall() as home:
         await home.say("Leo goes to Area C, Spot follows when it is there", "TIAGo")

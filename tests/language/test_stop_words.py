@@ -14,7 +14,8 @@ from parley.language.stop_words import called, calls_to_stop, has_stop_word, is_
         "I want you to stop",
         "could you stop please", "there is smoke, stop everything", "don't stop!! no wait, stop",
         "be careful!",
-        "that's enough", "hold on", "stand still", "don't move", "halt!", "seis", "ära liigu", "стой",
+        "that's enough", "hold on", "stand still", "don't move", "nobody move", "no one moves!",
+        "don't anybody move", "halt!", "seis", "ära liigu", "стой",
         "stooop",
     ],
 )  # fmt: skip
@@ -39,6 +40,11 @@ def test_what_only_has_such_a_word_is_no_call(said: str) -> None:
 @pytest.mark.parametrize("said", ["go to the box", "the stopwatch", "unstoppable", "heat", "what?"])
 def test_other_words_hold_nobody(said: str) -> None:
     assert not has_stop_word(said)
+
+
+@pytest.mark.parametrize("said", ["nobody move", "everybody stop", "don't anybody move", "all robots stop"])
+def test_a_call_to_all_is_for_all(said: str) -> None:
+    assert called(said, ("Ada", "Kim")) == ("Ada", "Kim")
 
 
 def test_a_no_is_one_only_if_nothing_else_is_said() -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from typing import Final
 
 from parley.actions.context import ActionContext
@@ -12,12 +11,9 @@ from parley.actions.pose import Pose
 from parley.errors import ActionFailure, FailureCode
 from parley.sentences import sentence
 from parley.umrf.action import action
-from parley.world.object_map import MapObject
 
 __all__ = ["dock"]
 
-_CLASSES: Final = frozenset({"dock", "charger"})
-_WORDS: Final = frozenset({"charger", "charging", "recharging"})
 _WITHIN_S: Final = 60.0
 """So long after it stands there a battery may tell the same as before."""
 _LOOK_S: Final = 1.0
@@ -57,7 +53,7 @@ async def _pose_at_dock(ctx: ActionContext) -> Pose:
         ActionFailure: `no_match`: no dock is known; `unreachable`: there is none that it can get to.
     """
     here = ctx.robot.pose()
-    docks = [item for item in ctx.world.objects.objects if _is_dock(item)]
+    docks = [item for item in ctx.world.objects.objects if item.charges]
     if not docks:
         text = sentence("I know of no charging dock here. Where can I charge?")
         raise ActionFailure(FailureCode.NO_MATCH, text, {"target": "charging dock"})
@@ -67,8 +63,3 @@ async def _pose_at_dock(ctx: ActionContext) -> Pose:
             return Pose.of(spot)
     text = sentence("I see no way to a charging dock.")
     raise ActionFailure(FailureCode.UNREACHABLE, text, {"target": "charging dock"})
-
-
-def _is_dock(item: MapObject) -> bool:
-    words = {*re.findall(r"\w+", " ".join((item.description, *item.aliases)).lower())}
-    return item.class_name.lower() in _CLASSES or bool(words & _WORDS)

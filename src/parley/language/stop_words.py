@@ -26,14 +26,14 @@ _WORDS: Final = (
 )
 _PHRASES: Final = (
     r"hold\s+(?:it|on|still|your)|hang\s+on|stand\s+still|stay\s+(?:there|where|put|still)|watch\s+(?:out|"
-    r"it)|look\s+out|heads\s+up|back\s+off|knock\s+it\s+off|(?:don['’]?t|do\s+not)\s+(?:you\s+)?(?:dare\s+)?"
-    r"(?:move|drive|go\s+any|come\s+any)|no\s+further|not\s+(?:another|one)\s+(?:step|inch|centimet\w+)|"
+    r"it)|look\s+out|heads\s+up|back\s+off|knock\s+it\s+off|(?:don['’]?t|do\s+not)\s+(?:(?:you|any(?:body|one))\s+)?"
+    r"(?:dare\s+)?(?:move|drive|go\s+any|come\s+any)|no(?:body|\s?-?one)\s+moves?|no\s+further|not\s+(?:another|one)\s+(?:step|inch|centimet\w+)|"
     r"pea\s+kinni|jää\s+(?:seisma|paigale)|ära\s+(?:liigu|sõida)|paigal|kohe\s+seisma"
 )
 _STOP: Final = re.compile(rf"(?<![\w-])(?:{_WORDS}|{_PHRASES})(?![\w])", re.IGNORECASE)
 
 _EVERYBODY: Final = re.compile(
-    r"\b(?:every\s?(?:body|one)|all\s+of\s+(?:you|them)|both|you\s+(?:all|two|lot)|guys|robots|kõik|kõigil?|"
+    r"\b(?:(?:every|any|no)\s?-?(?:body|one)|all\s+of\s+(?:you|them)|both|you\s+(?:all|two|lot)|guys|robots|kõik|kõigil?|"
     r"mõlemad|robotid)\b|^\W*all\b|\ball\W*$",
     re.IGNORECASE,
 )

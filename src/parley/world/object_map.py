@@ -17,6 +17,7 @@ are in it at once.
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass, field
 from typing import Any, Final, Self
 
@@ -32,6 +33,8 @@ PLACE: Final = "place"
 """Class of what is nothing but a place with a name."""
 
 _PERSON: Final = "person"
+_CHARGERS: Final = frozenset({"dock", "charger"})
+_CHARGING: Final = frozenset({"charger", "charging", "recharging"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +59,12 @@ class MapObject:
     """A room as a goal: one stands in it, not before it."""
     found: bool = False
     """Whether a robot saw it there, and no map said so."""
+
+    @property
+    def charges(self) -> bool:
+        """Whether, by what it is called, robots charge there."""
+        words = {*re.findall(r"\w+", " ".join((self.description, *self.aliases)).lower())}
+        return self.class_name.lower() in _CHARGERS or bool(words & _CHARGING)
 
     def gap_m(self, x_m: float, y_m: float) -> float:
         """From a point to its outline; 0 inside."""

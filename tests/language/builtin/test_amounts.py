@@ -50,3 +50,8 @@ def test_hums_and_false_starts_are_passed_over_and_words_keep_their_places() -> 
     kept = spoken(tokenize(text))
     assert [token.text for token in kept] == ["move", "for", "forward", "two", "feet"]
     assert [text[token.start : token.end] for token in kept] == [token.text for token in kept]
+
+
+def test_a_letter_that_names_a_place_is_no_false_start() -> None:
+    kept = spoken(tokenize("is bay b by box B broken"))
+    assert [token.text for token in kept] == ["is", "bay", "b", "by", "box", "B", "broken"]

@@ -127,3 +127,10 @@ def test_the_answer_to_a_question_is_whether_it_is_so() -> None:
     assert (clear.found, taken.found) == (True, False)
     free, blocked = report("whether bay 1 is blocked"), report("whether bay 1 is blocked", at("crate", 0.0))
     assert (free.found, blocked.found) == (False, True)
+
+
+def test_who_looks_at_a_part_of_the_floor_is_told_what_stands_on_it() -> None:
+    told = report("bay 1", at("bay 1", 0.0), at("red box", 0.5), at("crate", 6.0))
+    assert told.text == "I can see bay 1, about 2.0 m away. There is a red box in bay 1, about 2.0 m away."
+    assert [thing.label for thing in told.things] == ["bay 1", "red box"]
+    assert not told.attention

@@ -40,9 +40,44 @@ def test_sentences_of_the_data_are_read_as_it_says(kind: str, say: str) -> None:
         ),
         ("go back home, all of you", [Part("all", "go back home")]),
         ("let Kim do that", [Part("named", "", "Kim")]),
+        (
+            "two of you go to the gate, the other one waits at the dock",
+            [Part("some", "go to the gate", count=2), Part("rest", "wait at the dock")],
+        ),
+        ("the nearest of you should check the gate", [Part("one", "check the gate", nearest=True)]),
+        ("everybody but Kim go to the dock", [Part("all", "go to the dock", without=("Kim",))]),
+        (
+            "go to the dock, all of you except Ada and Kim",
+            [Part("all", "go to the dock", without=("Ada", "Kim"))],
+        ),
+        ("Everybody back!", [Part("all", "", home=True)]),
     ],
 )
 def test_who_does_what_is_told_apart_from_the_work(say: str, parts: list[Part]) -> None:
     wish = team_wish(say, ROBOTS)
     assert wish is not None
     assert [*wish.parts] == parts
+
+
+@pytest.mark.parametrize(
+    ("say", "robot", "asked"),
+    [
+        ("where is Kim?", "Kim", "where are you?"),
+        ("what are you all doing?", "", "what are you doing?"),
+        ("who is doing the gate?", "", "what are you doing?"),
+        ("has anybody found anything?", "", "have you found anything?"),
+        ("which of you is free?", "", "are you free?"),
+        ("where is everybody?", "", "where are you?"),
+    ],
+)
+def test_what_is_asked_about_robots_each_of_them_is_asked(say: str, robot: str, asked: str) -> None:
+    wish = team_wish(say, ROBOTS)
+    assert wish is not None
+    assert (wish.kind, wish.robot, wish.about) == ("about", robot, asked)
+
+
+@pytest.mark.parametrize(
+    "say", ["is anybody there?", "who are you?", "what are you doing, Kim?", "who is at the gate?"]
+)
+def test_other_questions_are_left_to_whoever_hears_them(say: str) -> None:
+    assert team_wish(say, ROBOTS) is None

@@ -20,9 +20,12 @@ from parley.sentences import Sentence, listed, sentence, together
 from parley.team.outlook import Outlook, Survey, Task
 from parley.team.sharing import alike, left_of, place_of, shared, tasks_of, why
 from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
 
 __all__ = ["Mission", "Share", "TeamTalk"]
 
+TELL_EACH: Final = sentence("I cannot tell what of that can be done apart. Please tell each of us its part.")
+IN_FULL: Final = sentence("I do not know what you mean by that. Please say it in full.")
 MOST_TASKS: Final = 40
 """More places than this are not shared in one order."""
 
@@ -126,11 +129,14 @@ class TeamTalk:
         return await work.parts(wish, target)
 
     async def _asked(self, wish: TeamWish, said: ChatInput) -> Mission:
-        """A question about another robot, answered by that one."""
-        situation = await self._situation(wish.robot, wish.about, said)
-        answer = await self._language.interpret(situation)
-        text = sentence("{robot} says: “{answer}”", robot=wish.robot, answer=answer.message_response)
-        return Mission(text=text)
+        """A question about another robot, answered by that one; or about all of them, by each."""
+
+        async def told(robot: str) -> Sentence:
+            answer = await self._language.interpret(await self._situation(robot, wish.about, said))
+            return sentence("{robot} says: “{answer}”", robot=robot, answer=answer.message_response)
+
+        names = (wish.robot,) if wish.robot else self._presence.names()
+        return Mission(text=together(*await asyncio.gather(*map(told, names))))
 
     async def _situation(self, robot: str, words: str, said: ChatInput) -> Situation:
         found = await self._known.of(robot, words, said, sees_pictures=False, proposal=self._offered(robot))
@@ -206,6 +212,10 @@ class TeamTalk:
         name = next(iter(found))
         return name, why(name, whole, 0, outlooks, able, batteries)
 
+    def charging(self, robot: str) -> list[MapObject]:
+        """Where robots charge, as a robot's map has it."""
+        return [item for item in self._known.objects(robot) if item.charges]
+
     def is_busy(self, robot: str) -> bool:
         """Whether a robot has something left to do."""
         plan = self._known.plans.get(robot)
@@ -264,6 +274,8 @@ class _Work:
         for part in wish.parts:
             if part.of:
                 return self._taken_over(part)
+            if part.home:
+                return self._where_to(part)
             words, stops = await self._words(part, target)
             if stops is not None:
                 return stops
@@ -281,6 +293,8 @@ class _Work:
             if part.after:
                 self._shares[begun:] = [replace(share, after=before) for share in new]
             before = tuple(share.robot for share in new)
+        if len({share.robot for share in self._shares}) < len(self._shares):
+            return Mission(text=TELL_EACH)
         return Mission(tuple(self._shares), together(*self._notes), dropped=self._dropped)
 
     def _taken_over(self, part: Part) -> Mission:
@@ -299,6 +313,13 @@ class _Work:
             return Mission((Share(part.robot, calls),), text, relieved=(part.of,))
         return Mission(text=text)
 
+    def _where_to(self, part: Part) -> Mission:
+        """It is to go back, and nobody said where to: mostly that is where robots charge."""
+        known = {item.description for name in self._members for item in self._team.charging(name)}
+        who = part.robot or "Everybody"
+        choices = tuple(f"{who} back to the {name}" for name in sorted(known))
+        return Mission(text=sentence("Where to? Please say it with the place."), choices=choices)
+
     async def _words(self, part: Part, target: str) -> tuple[str, Mission | None]:
         """The words of a part, with what "that" means."""
         if part.order:
@@ -314,19 +335,20 @@ class _Work:
                 return "", Mission(text=asked, choices=(take_over,))
             busy = self._team.is_busy(target)
             text = sentence("I am at something already. Say “cancel everything” first, then say it in full.")
-            return "", Mission(
-                text=text if busy else sentence("I do not know what you mean by that. Please say it in full.")
-            )
+            return "", Mission(text=text if busy else IN_FULL)
         if proposal:
             self._dropped[target] = proposal
-        return words, None
+        if (before := self._team.wish(words)) is not None:  # it was for a team itself: only the work is meant
+            works = {one.order for one in before.parts}
+            words = works.pop() if len(works) == 1 else ""
+        return (words, None) if words else ("", Mission(text=IN_FULL))
 
     def _of(self, part: Part, taken: set[str]) -> dict[str, ActorStatus]:
         """The robots a part may fall to."""
         if part.who == "named":
             return {name: status for name, status in self._members.items() if name == part.robot}
-        left = part.who in ("rest", "one")
-        return {name: status for name, status in self._members.items() if not (left and name in taken)}
+        gone = {*part.without, *(taken if part.who in ("rest", "one", "some") else ())}
+        return {name: status for name, status in self._members.items() if name not in gone}
 
     async def _read(
         self, words: str, members: Mapping[str, ActorStatus]
@@ -348,14 +370,16 @@ class _Work:
         first = next(iter(able.values()))
         splits = alike(first.tasks) and not is_in_turn(words)
         if wish.kind == "share" and not splits and len(first.tasks) > 1:
-            text = sentence("I cannot tell what of that can be done apart. Please tell each of us its part.")
-            return Mission(text=text)
+            return Mission(text=TELL_EACH)
         together = part.who == "all" and wish.kind == "parts" and len(first.tasks) > 1
         if together and not (splits and (is_of_several(words) or " and " not in words)):
             text = sentence("Shall we share that, or shall each of us do all of it?")
             return Mission(text=text, choices=(f"{words}, split between you", f"each of you: {words}"))
-        if part.who == "one" or wish.kind == "share" or together:
-            tasks = list(first.tasks) if splits and part.who != "one" else [first.calls]
+        if part.who in ("one", "some"):
+            tasks = [first.calls] * part.count
+            return await self._allot(tasks, first, able, one_each=True, nearest=part.nearest)
+        if wish.kind == "share" or together:
+            tasks = list(first.tasks) if splits else [first.calls]
             return await self._allot(tasks, first, able, one_each=wish.one_each)
         for name in own:
             if part.who == "rest" and self._team.stands(name):
@@ -369,9 +393,15 @@ class _Work:
         return None
 
     async def _allot(
-        self, tasks: list[Task], first: _Understood, read: Mapping[str, _Understood], *, one_each: bool
+        self,
+        tasks: list[Task],
+        first: _Understood,
+        read: Mapping[str, _Understood],
+        *,
+        one_each: bool,
+        nearest: bool = False,
     ) -> Mission | None:
-        """Give tasks to those who are done soonest."""
+        """Give tasks to those who are done soonest, or one to the nearest."""
         if len(tasks) > MOST_TASKS:
             return Mission(
                 text=sentence("That is too much to share in one order. Please say it in shorter pieces.")
@@ -385,7 +415,11 @@ class _Work:
             name: [task in read[name].tasks or task == read[name].calls for task in tasks]
             for name in outlooks
         }
-        routes = shared(tasks, outlooks, able, self._batteries, one_each=one_each) if outlooks else None
+        takers = dict(outlooks)
+        if nearest and outlooks:
+            closest = min(outlooks, key=lambda name: outlooks[name].ways_m[0])
+            takers = {closest: outlooks[closest]}
+        routes = shared(tasks, takers, able, self._batteries, one_each=one_each) if takers else None
         if routes is None:
             text = sentence("We cannot do all of that.")
             return Mission(text=text)

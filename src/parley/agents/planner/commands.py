@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Final
 
 from parley.agents.base import Node
 from parley.agents.planner import orders
@@ -26,6 +27,8 @@ from parley.messages.status import PlanDecision
 from parley.sentences import together
 
 __all__ = ["Commands"]
+
+STILL: Final = "I am still standing still. Say “carry on” when I should go on."
 
 
 class Commands:
@@ -71,7 +74,7 @@ class Commands:
                 step = plan.meant(command)
                 return [Say(orders.STEP_OVER)] if step is None else plan.drop(step)
             case "skip":
-                return plan.skip()
+                return [*plan.skip(), *([Say(STILL)] if plan.pause_wanted and len(plan.pending) > 1 else ())]
             case "pop":
                 return plan.pop(command.pop_index)
         return []  # memories are everybody's, see _remember
@@ -117,10 +120,8 @@ class Commands:
         if still and goes_on:
             self._plans.held_by.pop(plan.target, None)
             self._plans.send(plan, plan.start())
-        if calls and still and plan.update().state == "paused":
-            self._plans.say(
-                plan.target, "I am still standing still. Say “carry on” when I should go on.", "info"
-            )
+        elif calls and still and plan.update().state == "paused":
+            self._plans.say(plan.target, STILL, "info")
 
     def hold_for(self, plan: TargetPlan, by: Principal | None) -> None:
         """Remember who told a robot to stand still; a person's word counts before anybody else's."""

@@ -166,7 +166,8 @@ class Decisions:
         self._plans.say(plan.target, CHANGED if edited else begun(proposal.lines), "response")
         for command, step in bound:
             self._commands.change(plan, command, step, decision)
-        rest = not repairs and plan.update().state == "paused" and bool(plan.pending)
+        told_to_wait = [step for step in plan.pending if not step.ending]
+        rest = not repairs and plan.update().state == "paused" and bool(told_to_wait)
         if calls and not rest:  # whoever says yes to steps wants them done, but not what they told to wait
             self._plans.held_by.pop(plan.target, None)
         if repairs:
@@ -175,7 +176,7 @@ class Decisions:
             self._plans.send(plan, orders.take_repair(plan, calls))
         elif calls:
             order = ChatAction(words=proposal.words, id=proposal.order, after=proposal.after)
-            self._commands.append(plan, calls, order, decision.by)
+            self._commands.append(plan, calls, order, decision.by, goes_on=not rest)
             if not rest and plan.update().state == "paused":
                 self._plans.send(plan, plan.start())
         else:

@@ -206,7 +206,10 @@ class TargetPlan(PlanState):
         return self._sync.push()
 
     def skip(self) -> list[Effect]:
-        """Leave out the step being executed, or the failed one, and go on with the next."""
+        """Leave out the step being executed, or the failed one, and go on with the next.
+
+        Who stands because somebody said so goes on standing: leaving out a step is no word to move.
+        """
         current = self.current
         if current is None:
             return [Say("There is no step to skip.")]
@@ -219,7 +222,6 @@ class TargetPlan(PlanState):
         if self._ends_others(current):
             return [Say(_ALL_AT_ONCE, "error")]
         current.ending = True
-        self.pause_wanted = False
         return self._sync.end(current) if current.state != "queued" else []
 
     def _ends_others(self, step: Step) -> bool:

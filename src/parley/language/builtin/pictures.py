@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 from parley.errors import LanguageError
@@ -68,9 +68,8 @@ class _Scene:
         text = "" if _name(self.place).lower() in found.label.lower() else text  # it says so itself
         far = "" if found.distance_m is None else f", about {found.distance_m:.1f} m away"
         unsure = found.confidence is not None and found.confidence < _SURE
-        return (
-            f"{'what may be ' if unsure else ''}{article or _article(found.label)} {found.label}{text}{far}"
-        )
+        named = with_article(found.label) if article else f"{_article(found.label)} {found.label}"
+        return f"{'what may be ' if unsure else ''}{named}{text}{far}"
 
     def _by(self, found: Detection) -> str:
         others = (item for item in self.known.objects if item.description != found.label)
@@ -138,9 +137,9 @@ def _thing(scene: _Scene, wish: Asked) -> InspectionReport:
     found = _called(scene, wish)
     here = [one for one in found if scene.of(one) != "outside" or not _is_bounded(scene.place)]
     if here and not (wish.unwanted or not wish.holds):
-        return InspectionReport(
-            f"I can see {scene.told(here[0], article='the')}.", True, here[0].label, things=(here[0],)
-        )
+        text, on_it = _on_it(scene, here[0])
+        text = f"I can see {scene.told(here[0], article='the')}.{text}"
+        return InspectionReport(text, True, here[0].label, things=(here[0], *on_it))
     if here:
         text = f"I can see {' and '.join(scene.told(one) for one in here)}."
         # That it is not there would be well, and is not so.
@@ -162,6 +161,16 @@ def _thing(scene: _Scene, wish: Asked) -> InspectionReport:
         f"I looked, but I cannot see the {name}{scene.there}.{more or scene.also}",
         False, name, things=tuple(found),
     )  # fmt: skip
+
+
+def _on_it(scene: _Scene, found: Detection) -> tuple[str, tuple[Detection, ...]]:
+    """What stands on a part of the floor that is looked at: whoever wants to see it wants to know."""
+    place = next((item for item in scene.known.objects if item.description == found.label), None)
+    if not _is_bounded(place):
+        return "", ()
+    there = replace(scene, place=place)
+    things = tuple(one for one in scene.seen if one is not found and there.of(one) in ("in", "edge"))
+    return (f" There is {' and '.join(map(there.told, things))}." if things else ""), things
 
 
 def _called(scene: _Scene, wish: Asked) -> list[Detection]:

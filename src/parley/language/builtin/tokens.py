@@ -6,6 +6,8 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from parley.umrf.kinds import is_word_for
+
 __all__ = ["Token", "point_of", "spoken", "tokenize"]
 
 _POINT = re.compile(r"\(\s*(-?\d+(?:\.\d+)?)\s*[,;]\s*(-?\d+(?:\.\d+)?)\s*\)")
@@ -77,7 +79,10 @@ def spoken(tokens: Sequence[Token]) -> tuple[Token, ...]:
         begun = behind is not None and token.low.isalpha() and token.low not in ("a", "i")
         if begun and behind is not None and behind.low == token.low:
             continue
-        short = len(token.low) < 4 and token.low not in _SHORT
+        letter = len(token.low) == 1 and (
+            token.text.isupper() or (kept and is_word_for(kept[-1].low, "place"))
+        )
+        short = len(token.low) < 4 and token.low not in _SHORT and not letter  # "is bay b by the wall?"
         if not (begun and short and behind is not None and behind.low.startswith(token.low)):
             kept.append(token)
     return tuple(kept)

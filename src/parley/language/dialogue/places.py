@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
+from parley.world.whereabouts import called
 
 __all__ = ["distance_m", "in_room", "lies", "room_of", "rooms", "whereabouts"]
 
@@ -68,5 +69,6 @@ def whereabouts(objects: Sequence[MapObject], pose: Pose2D | None) -> str:
     room = next(
         (r for item in nearest if distance_m(item, pose) < _IN_ROOM_M and (r := room_of(item, known))), ""
     )
-    near = f"by the {name}" if far_m <= _AT_M else f"about {max(far_m, 1.0):.0f} metres from the {name}"
+    far = f"about {max(far_m, 1.0):.0f} metres from"
+    near = f"{'by' if far_m <= _AT_M else far} {called(name)}"
     return near if not room or room in name.lower() else f"{near}, in the {room}"

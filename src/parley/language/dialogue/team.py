@@ -22,8 +22,8 @@ from parley.language.stop_words import calls_to_stop
 __all__ = ["Part", "TeamWish", "is_in_turn", "is_of_several", "team_wish"]
 
 
-Who = Literal["one", "rest", "all", "each", "named"]
-_WHO: Final[tuple[Who, ...]] = ("one", "rest", "each", "all", "named")
+Who = Literal["one", "some", "rest", "all", "each", "named"]
+_WHO: Final[tuple[Who, ...]] = ("one", "some", "rest", "each", "all", "named")
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,13 +32,21 @@ class Part:
 
     who: Who
     order: str
-    """In words that one robot understands; empty: what was said last."""
+    """In words that one robot understands; empty: what was said last, or (with `home`) going back."""
     robot: str = ""
     """For `named`."""
     after: bool = False
     """Whether it waits until the part before it is done."""
     of: str = ""
     """Whose work it is that is taken over."""
+    count: int = 1
+    """For `some`: how many."""
+    nearest: bool = False
+    """For `one`: whoever has the shortest way, and nobody else."""
+    without: tuple[str, ...] = ()
+    """Robots that are left out of it by name."""
+    home: bool = False
+    """Whether it is to go back, and it is not said where to."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +59,7 @@ class TeamWish:
     about: str = ""
     """For `nearest` the place, for `about` the question as that robot would be asked."""
     robot: str = ""
-    """For `about`."""
+    """For `about`; empty: each of them is asked."""
     one_each: bool = False
     """For `share`: nobody takes more than one."""
     count: int = 0
@@ -139,17 +147,22 @@ class _Words:
         for pattern in _data()["nearest"]:
             if found := self._match(pattern, bare):
                 return TeamWish("nearest", about=found["place"])
+        if self._match(self.of("doing"), bare):
+            return TeamWish("about", about="what are you doing?")
         named = re.findall(rf"\b{self._names}\b", bare, re.IGNORECASE)
-        if len(named) != 1 or self._match(rf"{self._names}\b.*|.*\W{self._names}", bare):
+        called = rf"{self._names}\b.*|.*(?<!\bis)(?<!\bwas)(?<!'s)\W{self._names}"
+        if len(named) > 1 or (named and self._match(called, bare)):
             return None
-        asked = re.sub(rf"\b{re.escape(named[0])}\b", "you", bare, flags=re.IGNORECASE)
+        which = re.sub(rf"^{self.of('which')} (\w+)", r"\1 you", bare, flags=re.IGNORECASE)
+        whom = re.escape(named[0]) if named else self.of("asked")
+        asked = which if which != bare else re.sub(rf"\b{whom}\b", "you", bare, flags=re.IGNORECASE)
         for third, second in _SECOND.items():
             asked = re.sub(
                 rf"(?:\b{third}|(?<=\w){third}) you\b", f"{second} you", asked, flags=re.IGNORECASE
             )
-        if question_of(plain(tokenize(asked))) is None:
+        if asked == bare or question_of(plain(tokenize(asked))) is None:
             return None
-        return TeamWish("about", about=f"{asked}?", robot=self._robots[named[0].lower()])
+        return TeamWish("about", about=f"{asked}?", robot=self._robots[named[0].lower()] if named else "")
 
     # -- sharing ---------------------------------------------------------------------------------------
 
@@ -186,7 +199,9 @@ class _Words:
         """Who is to do what, one part after the other as it was said."""
         if (taken := self._taken_over(text)) is not None:
             return taken
-        if found := self._match(rf"{self.of('handing')} (?P<rest>{self.of('one')} .+)", text):
+        if found := self._match(
+            rf"{self.of('handing')} (?P<rest>(?:{self.of('one')}|{self.of('some')}) .+)", text
+        ):
             text = found["rest"]
         handing = (
             rf"(?:{self.of('handing')} (?P<robot>{self._names})|(?P<own>{self._names}) {self.of('duty')})"
@@ -200,14 +215,14 @@ class _Words:
                 return self._handed(robot, found["order"])
         if found := self._match(rf"(?P<robot>{self._names}) {self.of('modal')} {self.of('last')}", text):
             return TeamWish("parts", (Part("named", "", self._robots[found["robot"].lower()]),))
-        if found := self._match(rf"(?P<order>.+?),? (?P<all>{self.of('all')}|{self.of('each')})", text):
+        whole = rf"(?:{self.of('all')}|{self.of('each')})(?: {self.of('but')})?"
+        if found := self._match(rf"(?P<order>.+?),? (?P<all>{whole})", text):
             if found["order"].lower().endswith((*_INSIDE, " for", " than", " as", " by")):
                 return None  # "say hello to everybody"
             text = f"{found['all']} {found['order']}"
-        pieces = self._pieces(text)
         made: list[Part] = []
-        for who, robot, order, after in pieces:
-            own = self._part(who, robot, order, after=after, known=made)
+        for who, subject, order, after in self._pieces(text):
+            own = self._part(who, subject, order, after=after, known=made)
             if own is None:
                 return None
             made.append(own)
@@ -232,9 +247,12 @@ class _Words:
         return TeamWish("parts", (Part("named", "", robot, of=of),))
 
     def _pieces(self, text: str) -> list[tuple[Who, str, str, bool]]:
-        """The parts as said: who, the robot's name, the words, whether it comes after the one before."""
+        """The parts as said: who, in which words, what to do, whether it comes after the one before."""
         when = self.of("when")
-        subjects = "|".join(f"(?P<{who}>{self.of(who)})" for who in ("one", "rest", "each", "all"))
+        subjects = "|".join(
+            f"(?P<{who}>{self.of(who)}(?: {self.of('but')})?)"
+            for who in ("one", "some", "rest", "each", "all")
+        )
         opening = (
             rf"(?P<gap>^|[,;.]? (?:{self.of('meanwhile')} )?|[,;.] ?)"
             rf"(?P<then>{self.of('then')},? )?(?P<when>{when},? )?"
@@ -254,7 +272,7 @@ class _Words:
             order = text[one.end() : end].strip(" ,;:.")
             waits = re.search(rf"[,;]? {when}$", f" {order}", re.IGNORECASE)
             order = order[: waits.start() - 1].strip() if waits else order
-            pieces.append((who, one["named"] or "", order, bool(one["then"] or one["when"] or waits)))
+            pieces.append((who, one[who], order, bool(one["then"] or one["when"] or waits)))
         for at in range(len(pieces) - 2, -1, -1):
             if not pieces[at][2] and not pieces[at + 1][3]:  # "Ada and Kim go to the gate": both do
                 pieces[at] = (*pieces[at][:2], pieces[at + 1][2], pieces[at][3])
@@ -263,13 +281,24 @@ class _Words:
     def _part(
         self,
         who: Who,
-        robot: str,
+        subject: str,
         said: str,
         *,
         after: bool,
         known: Sequence[Part],
     ) -> Part | None:
-        name = self._robots[robot.lower()] if robot else ""
+        of_whom, *left_out = re.split(rf" (?={self.of('but')}$)", subject.lower())
+        part = Part(
+            who,
+            "",
+            self._robots.get(subject.lower(), ""),
+            after,
+            count=next((number for word, number in _NUMBERS.items() if word in of_whom.split()), 1),
+            nearest="nearest" in of_whom or "closest" in of_whom,
+            without=tuple(
+                self._robots[name] for name in re.findall(rf"\b{self._names}\b", " ".join(left_out))
+            ),
+        )
         order = said.strip(" ,")
         way = re.match(r"to (\w+)", order, re.IGNORECASE)
         if way and (way[1].lower(),) not in lexicon().verbs:
@@ -277,21 +306,23 @@ class _Words:
         while found := re.match(rf"{self.of('modal')} ", order, re.IGNORECASE):
             order = order[found.end() :]
         if self._match(self.of("last"), order):
-            return Part(who, "", name, after)
+            return part
         order = _in_base_form(order)
+        if self._match(self.of("home"), order):
+            return replace(part, home=True)
         if order and re.match(rf"{self.of('homeward')}\b", order, re.IGNORECASE) and " " in order:
             order = f"go {order}"
         if self._match(self.of("following"), order):
             order = known[-1].order if known else ""
-            return Part(who, order, name, after) if order else None
+            return replace(part, order=order) if order else None
         if opens := re.match(self.of("opening"), order, re.IGNORECASE):
             order = f"go to{order[opens.end() :]}"
         first = order.split(" ")[0].lower()
         acts = (first,) in lexicon().verbs and first not in lexicon().classes["being"]
-        return Part(who, order, name, after) if acts and " " in order else None
+        return replace(part, order=order) if acts and " " in order else None
 
 
-_NUMBERS: Final = {"both": 2, "two": 2, "three": 3, "four": 4}
+_NUMBERS: Final = {"both": 2, "two": 2, "three": 3, "four": 4, "five": 5}
 _SECOND: Final = {"is": "are", "'s": " are", "has": "have", "does": "do", "was": "were"}
 _INSIDE: Final = (
     " the", " of", " to", " at", " with", " by", " near", " for", " from", " in", " on",
