@@ -203,7 +203,7 @@ async def test_while_the_disk_is_full_nothing_waits_and_what_did_not_fit_is_writ
         assert [entry.words.split()[0] for entry in await r.log(effect="speak")] == ["2", "1", "0"]
         (gap,) = await r.log(effect="gap")
         assert gap.detail["dropped"] == 47
-        assert r.told[-1] == "In the log of who did what 47 entries are missing."
+        assert r.told[-1] == "Entries missing in the log of who did what: 47."
         assert (await r.store.check()).problem == ""
 
 
@@ -215,7 +215,7 @@ async def test_what_came_faster_than_it_was_heard_is_written_down_as_a_gap_and_t
         assert len(await r.log(effect="speak", limit=1000)) == 1000
         (gap,) = await r.log(effect="gap")
         assert gap.detail["dropped"] == 5
-        assert r.told == ["In the log of who did what 5 entries are missing."]
+        assert r.told == ["Entries missing in the log of who did what: 5."]
 
 
 @pytest.mark.parametrize(

@@ -23,6 +23,7 @@ from parley.messages.chat import (
     ChatAction,
     ChatFeedback,
     ChatInput,
+    ChatRead,
     ReplyDraft,
     SystemCommand,
 )
@@ -39,6 +40,7 @@ from parley.messages.status import (
     PlanUpdate,
     StopCommand,
 )
+from parley.messages.wire import decode
 from parley.transport.local import LocalTransport
 from tests.transport.backends import until
 
@@ -354,6 +356,16 @@ async def test_of_several_who_are_told_the_same_each_acknowledges_it_when_it_is_
     for _ in range(2):
         room.observer.publish(topics.MEMORY_EVENT, MemoryEvent(kind="added", name="key"))
     assert {await room.reply(1), await room.reply(2)} == {"Noted."}
+
+
+async def test_each_message_is_said_to_be_read_also_one_that_is_known_already(room: Room) -> None:
+    read: list[str] = []
+    await room.transport.subscribe(topics.CHAT_READ, lambda m: read.append(decode(ChatRead, m.data).id))
+    await until(lambda: read == [""])  # who comes late learns that messages are read here
+    room.language.will("interpret", ChatAction(message_response="Fine."))
+    for _ in range(2):
+        room.observer.publish(topics.CHAT_INPUT, ChatInput(message="look", targets=("A",), id="m1"))
+    await until(lambda: read == ["", "m1", "m1"])
 
 
 async def test_message_sent_twice_is_handled_once(room: Room) -> None:

@@ -6,8 +6,12 @@ import asyncio
 import base64
 from typing import Any
 
+import pytest
+
 from parley.messages import topics
-from parley.messages.chat import ChatInput, ReplyDraft
+from parley.messages.chat import ChatInput, ChatRead, ReplyDraft
+from parley.web import backend
+from tests.transport.backends import until
 from tests.web.rig import JPEG, Page, served
 
 
@@ -180,4 +184,40 @@ async def test_people_are_told_when_what_robots_said_was_lost_on_its_way_to_them
             rig.robots.say(f"word {number}")
         await rig.heard()
         told = [entry for entry in rig.server.backend.state.chat.newest(2000) if entry.type == "error"]
-        assert len(told) == 1 and "200 messages did not get here" in told[0].message
+        assert len(told) == 1 and "did not get here" in told[0].message and ": 200." in told[0].message
+
+
+async def test_what_nobody_has_read_is_said_again_until_it_is_and_once_it_was_no_more(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(backend, "AGAIN_S", 0.05)
+    async with served("Ada") as rig:
+        rig.robots.tell(topics.CHAT_READ, ChatRead())
+        await rig.http.post("/api/chat", json=message("m1", "go home", "Ada"))
+        await until(lambda: len(rig.robots.inputs) > 2)
+        assert await rig.server.backend.store.unsent(), "a killed server sends it again"
+        rig.robots.tell(topics.CHAT_READ, ChatRead(id="m1"))
+        await until(lambda: not rig.server.backend._unread)
+        assert not await rig.server.backend.store.unsent()
+        assert {said.id for said in rig.robots.inputs} == {"m1"}
+
+
+async def test_what_nobody_reads_in_time_is_told_of(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(backend, "RESEND_WITHIN_MS", 100)
+    async with served("Ada") as rig:
+        page = await rig.page()
+        rig.robots.tell(topics.CHAT_READ, ChatRead())
+        await rig.http.post("/api/chat", json=message("m1", "go home", "Ada"))
+        await until_it_heard(page, 2)
+        assert "may not have got “go home”" in page.of("chat")[1]["entry"]["message"]
+
+
+async def test_a_reader_of_another_make_gets_each_message_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(backend, "AGAIN_S", 0.01)
+    monkeypatch.setattr(backend, "RESEND_WITHIN_MS", 100)
+    async with served("Ada") as rig:
+        page = await rig.page()
+        await rig.http.post("/api/chat", json=message("m1", "go home", "Ada"))
+        await until(lambda: not rig.server.backend._unread)
+        assert len(rig.robots.inputs) == 1
+        assert len(page.of("chat")) == 1

@@ -180,7 +180,7 @@ class AuditLog(Node):
         self._dropped -= dropped
         if gap:
             self._dropped_since = 0
-            self._tell(sentence("In the log of who did what {count} entries are missing.", count=dropped))
+            self._tell(sentence("Entries missing in the log of who did what: {count}.", count=dropped))
         return True
 
     def _gap(self) -> AuditEvent:

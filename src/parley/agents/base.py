@@ -131,8 +131,8 @@ class Node:
 
     def _tell_lost(self, count: int) -> None:
         text = sentence(
-            "So much came at once that I lost {count} messages. Look whether all is as you want it, and say "
-            "again what is missing.",
+            "Messages that I lost, as so much came at once or the connection was away: {count}. Look whether "
+            "all is as you want it, and say again what is missing.",
             count=count,
         )
         self.publish(topics.CHAT_FEEDBACK, ChatFeedback(message=self.spoken(text), type="error"))

@@ -114,6 +114,13 @@ class ReplyDraft(Payload):
     message: ShownText = ""
 
 
+class ChatRead(Payload):
+    """`/parley/chat_read`: an operator's message got to who reads them; what did not is sent again."""
+
+    id: str = ""
+    """Of the message; empty: whoever reads them is there."""
+
+
 class FlowIf(Payload):
     """Run only if an earlier step ended with this result."""
 

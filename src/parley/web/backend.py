@@ -46,7 +46,10 @@ log = structlog.get_logger(__name__)
 RECENT: Final = 300
 """Entries that are read from the store at the start."""
 RESEND_WITHIN_MS: Final = 30_000
-"""A message that a killed server may not have sent is sent by the next one unless it is older than this."""
+"""A message that a killed server may not have sent is sent by the next one unless it is older than this;
+and for so long is one said again that nobody has read."""
+AGAIN_S: Final = 1.0
+"""Wall time between two tries."""
 
 
 class Backend:
@@ -89,6 +92,8 @@ class Backend:
         self.picture_listeners: list[Callable[[tuple[str, str], Picture], None]] = []
         self._sending: set[str] = set()
         self._keeping: set[asyncio.Task[None]] = set()
+        self._unread: dict[str, asyncio.Task[None]] = {}
+        """What waits for messages to be read, by entry."""
         self._policies: dict[str, str] = {}
         self._policy_by: dict[str, str] = {}
         """Who chose it, by robot, as JSON."""
@@ -151,6 +156,7 @@ class Backend:
         await self.sessions.refresh()
         watch = asyncio.create_task(self.sessions.watch(), name="web people")
         self._stack.push_async_callback(_cancel, watch)
+        self._stack.push_async_callback(self._give_up_reading)
         await self._settle_unsent()
         self.pusher = await enter(
             Pusher(
@@ -290,14 +296,32 @@ class Backend:
         if known.message != post.text:
             raise WebProblem(409, "Another message has this id.", "Send it under a new one.", path="id")
         for entry, messages in await self.store.unsent(post.id):
-            await self._send(entry, messages)
+            if entry.id not in self._unread:
+                await self._send(entry, messages)
         return known
 
     async def _send(self, entry: ChatEntry, messages: Sequence[ChatInput]) -> None:
         """Hand a message to robots. After a kill in between it goes again, under ids that they know."""
         for message in messages:
             await self.link.say(message)
+        if not self.link.says_what_it_read:
+            await self.store.mark_sent(entry.id)
+        self._unread[entry.id] = asyncio.create_task(self._until_read(entry, messages), name="web unread")
+
+    async def _until_read(self, entry: ChatEntry, messages: Sequence[ChatInput]) -> None:
+        """Whoever reads what people say may be cut off, or about to be started anew."""
+        try:
+            async with asyncio.timeout(RESEND_WITHIN_MS / 1000):
+                await self.link.until_read(messages, again_s=AGAIN_S)
+        except TimeoutError:
+            if self.link.says_what_it_read:
+                self._tell_unread(entry)
         await self.store.mark_sent(entry.id)
+        del self._unread[entry.id]
+
+    async def _give_up_reading(self) -> None:
+        for task in tuple(self._unread.values()):
+            await _cancel(task)
 
     async def _settle_unsent(self) -> None:
         """What an earlier run left: sent now if it was said just now to robots that run on, else told of."""
@@ -306,17 +330,14 @@ class Backend:
             if not self.config.fresh_robots and now_ms - entry.unix_ms <= RESEND_WITHIN_MS:
                 await self._send(entry, messages)
                 continue
-            said = f"“{entry.message}”" if entry.message else "your picture"
-            self.state.chat.on_feedback(
-                ChatFeedback(
-                    message=f"I was interrupted and may not have got {said}. Say it again if it still holds.",
-                    targets=entry.targets,
-                    type="error",
-                    reply_to=entry.id,
-                ),
-                unix_ms=now_ms,
-            )
+            self._tell_unread(entry)
             await self.store.mark_sent(entry.id)
+
+    def _tell_unread(self, entry: ChatEntry) -> None:
+        said = f"“{entry.message}”" if entry.message else "your picture"
+        text = f"I was interrupted and may not have got {said}. Say it again if it still holds."
+        told = ChatFeedback(message=text, targets=entry.targets, type="error", reply_to=entry.id)
+        self.state.chat.on_feedback(told, unix_ms=self.clock.unix_ms())
 
     def _check_reply(self, post: ChatPost) -> None:
         question = self.state.chat.entries.get(post.reply_to)

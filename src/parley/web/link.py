@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Final, Self, TypeVar
 
 import structlog
@@ -15,7 +15,7 @@ from parley.errors import GraphRefusedError, InvalidMessageError, TransportError
 from parley.messages import topics
 from parley.messages.attendance import Attendance
 from parley.messages.audit import AuditEvent
-from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, ReplyDraft
+from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, ChatRead, ReplyDraft
 from parley.messages.incident import GetIncidents, Incident, IncidentList
 from parley.messages.map import MapView
 from parley.messages.memory import AddToMemory, MemoryEvent, RemoveMemory
@@ -66,7 +66,8 @@ _MISSED: Final = frozenset(
 )
 """Of what is told here a person would miss what is lost."""
 _LOST: Final = (
-    "So much came at once that {count} messages did not get here. Look whether all is as you want it."
+    "Messages that did not get here, as so much came at once or the connection was away: {count}. "
+    "Look whether all is as you want it."
 )
 
 
@@ -96,6 +97,10 @@ class Link:
         self._publishers: dict[type[BaseModel], Publisher[String]] = {}
         self._echoes: dict[str, asyncio.Future[None]] = {}
         """Messages that were published and did not come back yet, by id."""
+        self.says_what_it_read = False
+        """Whether whoever reads what people say was ever heard to say so; a node of another make does not."""
+        self._read: dict[str, asyncio.Event] = {}
+        """Set once a message that was published is read, by its id."""
         self._losses = Losses(self._tell_lost)
         self._memory_waits: dict[str, list[asyncio.Future[MemoryEvent]]] = {}
 
@@ -126,6 +131,7 @@ class Link:
         await self._listen(
             topics.REPLY_DRAFT, _reader(ReplyDraft), lambda m: state.chat.on_draft(m, unix_ms=now_ms())
         )
+        await self._listen(topics.CHAT_READ, _reader(ChatRead), self._on_read)
         await self._listen(topics.PLAN, decode_plan, state.on_plan)
         await self._listen(topics.PLAN_DECISION, _reader(PlanDecision), state.plans.on_decision)
         await self._listen(topics.GRAPH_EVENTS, _reader(GraphEvent), state.on_event)
@@ -163,7 +169,11 @@ class Link:
         self._publishers[type(message)].publish(to_string(message))
 
     async def say(self, message: ChatInput) -> None:
-        """Publish an operator's words and wait until they come back: then the transport has carried them."""
+        """Publish an operator's words and wait until they come back: then the transport has carried them.
+
+        `until_read` has to follow.
+        """
+        self._read.setdefault(message.id, asyncio.Event())
         echo: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._echoes[message.id] = echo
         try:
@@ -174,6 +184,20 @@ class Link:
             log.warning("no echo of a message", id=message.id)
         finally:
             del self._echoes[message.id]
+
+    async def until_read(self, messages: Sequence[ChatInput], *, again_s: float) -> None:
+        """Wait until all that was said is read, and say it again meanwhile: who has read it knows its id."""
+        try:
+            while unread := [said for said in messages if not self._read[said.id].is_set()]:
+                with contextlib.suppress(TimeoutError):
+                    async with asyncio.timeout(again_s):
+                        await self._read[unread[0].id].wait()
+                        continue
+                for said in unread if self.says_what_it_read else ():
+                    self.send(said)
+        finally:
+            for said in messages:
+                del self._read[said.id]
 
     async def ask(self, service: Service[ChatRequest, ChatResponse], request: BaseModel, kind: type[P]) -> P:
         """Call a service that speaks JSON.
@@ -267,6 +291,11 @@ class Link:
         if echo is not None and not echo.done():
             echo.set_result(None)
         self._state.chat.on_input(said, unix_ms=self._clock.unix_ms())
+
+    def _on_read(self, read: ChatRead) -> None:
+        self.says_what_it_read = True
+        if (waited := self._read.get(read.id)) is not None:
+            waited.set()
 
     def _on_stop(self, command: StopCommand) -> None:
         self._state.robots.on_stop(command, now_s=self._clock.wall_s(), unix_ms=self._clock.unix_ms())

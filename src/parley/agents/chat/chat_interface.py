@@ -43,7 +43,7 @@ from parley.language.stop_words import calls_to_stop, is_no, only_takes_back, op
 from parley.memory.client import recall
 from parley.memory.missions import MissionStore
 from parley.messages import topics
-from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
+from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, ChatRead, SystemCommand
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.memory import AddToMemory, MemoryBody, MemoryEntry, MemoryEvent, RemoveMemory
 from parley.messages.principal import Principal
@@ -166,12 +166,15 @@ class ChatInterface(Node):
         await self._answering.open()
         await self._board.open()
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input, in_charge=True)
+        self.publish(topics.CHAT_READ, ChatRead())
         self.spawn(self._presence.watch(), name="presence")
 
     # -- from the wire ---------------------------------------------------------------------------------
 
     def _on_input(self, said: ChatInput) -> None:
         """Hear a message; where a word of stopping is in it, its robots stand while it is read."""
+        if said.id:
+            self.publish(topics.CHAT_READ, ChatRead(id=said.id))
         targets = (self._presence.resolve(name) or name for name in said.targets)
         held = self._holds.begin(said, (*targets, *self._presence.called_in(said.message)))
         try:
