@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from parley.language.builtin.markup import Act, Annotated, RoleSpan, Trigger, read_line
 
-__all__ = ["fill", "vary"]
+__all__ = ["exchanged", "fill", "joined", "vary"]
 
 _SLOT = re.compile(r"(\*?)\[(\w+)\]")
 _CHOICE = re.compile(r"<<([^<>]*)>>")
@@ -23,6 +23,8 @@ _BEFORE = (
 )  # fmt: skip
 _BEHIND = ("please", "now", "for me", "would you", "thanks", "if you can", "okay", "right away", "thank you")
 _FILLERS = ("uh", "um", "uhm", "like", "er")
+_BETWEEN = (".", ".", ",", "and", "then", "and then", ", then", "so", "uh", "")
+_LONGEST = 40
 
 
 def fill(template: str, words: Mapping[str, Sequence[str]], chance: random.Random) -> str:
@@ -54,11 +56,81 @@ def vary(sentences: Iterable[Annotated], chance: random.Random, exchange: float)
     return [_varied(sentence, pool, chance, exchange) for sentence in given]
 
 
+def exchanged(sentences: Sequence[Annotated], chance: random.Random, share: float) -> list[Annotated]:
+    """Each sentence once, some roles filled as the same are elsewhere, if they begin with the same word."""
+    pool: dict[tuple[str, str], list[tuple[tuple[str, ...], int]]] = {}
+    for sentence in sentences:
+        for span in sentence.roles:
+            words = sentence.words[span.start : span.end]
+            if _apart(sentence, span):
+                pool.setdefault((span.role, words[0].lower()), []).append((words, span.head - span.start))
+    found = []
+    for sentence in sentences:
+        for number in range(len(sentence.roles)):
+            span = sentence.roles[number]
+            if _apart(sentence, span) and chance.random() < share:
+                words, head = chance.choice(pool[span.role, sentence.words[span.start].lower()])
+                sentence = _spliced(sentence, span.start, span.end, words, "")
+                roles = list(sentence.roles)
+                roles[number] = replace(roles[number], head=roles[number].start + head)
+                sentence = replace(sentence, roles=tuple(roles))
+        found.append(sentence)
+    return found
+
+
+def _apart(sentence: Annotated, span: RoleSpan) -> bool:
+    """Whether a role of several words has no other part of the sentence inside."""
+    inside = [trigger.start for trigger in sentence.triggers]
+    inside += [other.start for other in sentence.roles if other is not span]
+    alone = not any(span.start <= start < span.end for start in inside)
+    return alone and span.role not in "TXY" and span.end - span.start > 1
+
+
+def joined(sentences: Sequence[Annotated], chance: random.Random, share: float) -> list[Annotated]:
+    """Each sentence once, some with another one behind, as one message."""
+    others = list(sentences)
+    chance.shuffle(others)
+    return [
+        _joined(one, other, chance.choice(_BETWEEN).split())
+        if chance.random() < share and len(one.words) + len(other.words) < _LONGEST
+        else one
+        for one, other in zip(sentences, others, strict=True)
+    ]
+
+
+def _joined(one: Annotated, other: Annotated, between: Sequence[str]) -> Annotated:
+    """Two sentences with words between, which belong to the second."""
+    if one.words[-1] in ".!?":
+        between = ()
+    more, owners = len(one.words) + len(between), len(one.triggers)
+    triggers = [
+        Trigger(
+            t.frame, t.start + more, t.end + more, t.mode, tuple(place + more for place in t.particles)
+        )
+        for t in other.triggers
+    ]  # fmt: skip
+    roles = [
+        RoleSpan(
+            r.role, r.start + more, r.end + more, r.head + more, None if r.owner is None else r.owner + owners
+        )
+        for r in other.roles
+    ]  # fmt: skip
+    return Annotated(
+        (*one.words, *between, *other.words),
+        (*one.acts, *(other.acts[:1] * len(between)), *other.acts),
+        (*one.moves, *(other.moves[:1] * len(between)), *other.moves),
+        (*one.triggers, *triggers),
+        (*one.roles, *roles),
+    )
+
+
 def _varied(
     sentence: Annotated, pool: Sequence[tuple[str, ...]], chance: random.Random, exchange: float
 ) -> Annotated:
-    for number, span in enumerate(sentence.roles):
-        fits = span.role == "T" and span.head == span.end - 1 and span.end - span.start > 1
+    for number in range(len(sentence.roles)):
+        span = sentence.roles[number]  # where it stands now: what was exchanged before it may be longer
+        deeds = any(span.start <= trigger.start < span.end for trigger in sentence.triggers)
+        fits = span.role == "T" and span.head == span.end - 1 and span.end - span.start > 1 and not deeds
         if fits and chance.random() < exchange:
             sentence = _spliced(sentence, span.start, span.end, chance.choice(pool), "")
             grown = sentence.roles[number]
