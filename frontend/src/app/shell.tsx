@@ -65,6 +65,7 @@ export function Shell(props: Props) {
         )}
         <StopBanner />
         <ConnectionBanner />
+        <Toasts />
         <section aria-label={t('aboutHere')}>
           <OpenNote />
           <ModelNote />
@@ -77,7 +78,6 @@ export function Shell(props: Props) {
         </main>
       </div>
       {isHeld && <BottomBar />}
-      <Toasts />
       <CommandPalette />
       <ShortcutSheet />
       <AddRobot />

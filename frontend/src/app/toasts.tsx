@@ -15,10 +15,12 @@ export function Toasts() {
   const { t } = useTranslation('common');
   const toasts = useToasts((state) => state.toasts);
   return (
-    <section className={css.toasts} aria-label={t('notes')} aria-live="polite">
-      {toasts.map((toast) => (
-        <Note key={toast.id} toast={toast} />
-      ))}
+    <section className={css.place} aria-label={t('notes')} aria-live="polite">
+      <div className={css.toasts}>
+        {toasts.map((toast) => (
+          <Note key={toast.id} toast={toast} />
+        ))}
+      </div>
     </section>
   );
 }

@@ -97,6 +97,7 @@ export const round = (part: Partial<RoundView> & { number: number }): RoundView 
 });
 
 export const step = (part: Partial<StepView> & { id: string }): StepView => ({
+  planned: part.id,
   action: 'GoTo',
   label: part.id,
   reason: '',

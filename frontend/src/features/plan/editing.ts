@@ -20,6 +20,24 @@ export interface DraftStep {
 /** Steps that may still be changed: those that have not begun. */
 export const pendingSteps = (steps: readonly StepView[]) => steps.filter((step) => step.state === 'queued');
 
+/** Which of the steps that could be changed have begun (or gone) since, and whether nothing else is otherwise. */
+export function sinceThen(then: readonly StepView[], now: readonly StepView[]) {
+  const [before, still] = [pendingSteps(then), pendingSteps(now)];
+  const key = (step?: StepView) => step && (step.planned || step.id);
+  const waits = (step: StepView) => still.some((one) => key(one) === key(step));
+  const left = before.filter(waits);
+  return {
+    begun: new Set(before.filter((step) => !waits(step)).map((step) => step.id)),
+    isSame: left.length === still.length && left.every((step, at) => key(step) === key(still[at])),
+  };
+}
+
+/** Without those that have begun. */
+export const without = (steps: readonly DraftStep[], begun: ReadonlySet<string>): readonly DraftStep[] =>
+  steps
+    .filter((step) => !begun.has(step.id))
+    .map((step) => ({ ...step, finding: step.finding.filter((one) => !begun.has(one.id)) }));
+
 export const toDrafts = (steps: readonly StepView[]): readonly DraftStep[] =>
   linesOf(steps).map(({ step, finding }) => ({ ...toDraft(step), finding: finding.map(toDraft) }));
 

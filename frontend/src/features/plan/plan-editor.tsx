@@ -9,7 +9,7 @@ import { Choice } from '@/ui/choice';
 import { useMap } from '@/ui/use-map';
 import { quoted } from '@/ui/words';
 
-import { addables, callsOf, moved, nameOfAction, newStep, nudged, setInput, type DraftStep } from './editing';
+import { addables, callsOf, moved, nameOfAction, newStep, nudged, setInput, without, type DraftStep } from './editing';
 import { EditorRow } from './editor-row';
 import { nothing, placesOf, type Places } from './place-picker';
 import css from './plan-editor.module.css';
@@ -17,6 +17,8 @@ import css from './plan-editor.module.css';
 interface Props {
   robot: string;
   steps: readonly DraftStep[];
+  /** By id those that have begun since: they can be changed no more. */
+  begun?: ReadonlySet<string>;
   saveLabel: string;
   onSave: (calls: readonly ActionCall[]) => Promise<void>;
   onCancel: () => void;
@@ -28,12 +30,14 @@ interface Removed {
   index: number;
 }
 
+const NONE: ReadonlySet<string> = new Set();
 const NO_ACTIONS: readonly AbilityView[] = [];
 
 /** Steps to be put in order, changed, removed and added. */
-export function PlanEditor({ robot, steps: initial, saveLabel, onSave, onCancel }: Props) {
+export function PlanEditor({ robot, steps: initial, begun = NONE, saveLabel, onSave, onCancel }: Props) {
   const { t } = useTranslation(['plan', 'common']);
-  const [steps, setSteps] = useState(initial);
+  const [drafts, setSteps] = useState(initial);
+  const steps = useMemo(() => without(drafts, begun), [drafts, begun]);
   const [added, setAdded] = useState(0);
   const [busy, setBusy] = useState(false);
   const [removed, setRemoved] = useState<Removed | null>(null);

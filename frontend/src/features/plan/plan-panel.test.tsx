@@ -92,12 +92,12 @@ describe('the plan', () => {
   });
 
   it.each([
-    ['Cancel all', 'clear', '3 steps were cancelled.', [], ['Two', 'Three', 'Four']],
-    ['Skip', 'skip', '“Two” is left out.', ['three', 'four'], ['Two', 'Three', 'Four']],
-  ])('puts back what was lost by: %s', async (button, command, said, left, again) => {
+    ['Cancel all', { command: 'clear', step: '' }, '3 steps were cancelled.', [], ['Two', 'Three', 'Four']],
+    ['Skip', { command: 'skip', step: 'two' }, '“Two” is left out.', ['three', 'four'], ['Two', 'Three', 'Four']],
+  ])('puts back what was lost by: %s', async (button, body, said, left, again) => {
     const user = show();
     await user.click(screen.getByRole('button', { name: button }));
-    expect(sent).toEqual([{ method: 'POST', path: '/api/plans/Ada/command', body: { command } }]);
+    expect(sent).toEqual([{ method: 'POST', path: '/api/plans/Ada/command', body }]);
     const toast = useToasts.getState().toasts[0];
     expect(toast?.message).toBe(said);
     const now = steps.filter((one) => left.includes(one.id));
@@ -146,6 +146,33 @@ describe('the plan', () => {
       'The plan changed in the meantime. Here is the newest one; please change it again.',
     ]);
     expect(screen.queryByRole('grid')).toBeNull();
+    act(() => useLive.getState().takeChanges([{ kind: 'plan', seq: 1, plan: plan({ robot: 'Ada', state: 'ended', steps }) }]));
+    expect(useToasts.getState().toasts).toEqual([]); // there is nothing to change any more
+  });
+
+  it('goes on being changed when steps of it begin, without those', async () => {
+    const user = show();
+    const list = () => within(screen.getByRole('grid', { name: 'Change the plan' })).getAllByRole('row');
+    const change = (seq: number, now: typeof steps) =>
+      act(() => useLive.getState().takeChanges([{ kind: 'plan', seq, plan: plan({ robot: 'Ada', revision: 7 + seq, steps: now }) }]));
+    await user.click(screen.getByRole('button', { name: 'Change' }));
+    const on = steps.map((one) => (one.id === 'four' ? one : { ...one, state: one.id === 'three' ? ('running' as const) : ('finished' as const) }));
+    change(1, on);
+    expect(list()).toHaveLength(1);
+    await user.click(screen.getByRole('button', { name: 'Save' }));
+    const saved = () => sent.filter(({ method }) => method === 'PUT').map(({ body }) => body);
+    expect(saved()).toEqual([{ steps: [call('Four')], revision: 8 }]);
+
+    await user.click(screen.getByRole('button', { name: 'Change' }));
+    change(2, [...on, step({ id: 'five', call: call('Five') })]); // somebody else put it in
+    await user.click(screen.getByRole('button', { name: 'Save' }));
+    expect(saved()[1]).toEqual({ steps: [call('Four')], revision: 8 });
+  });
+
+  it('says that it waits for an answer where its step does, and offers no choice of one', () => {
+    show({ steps: [step({ id: 'ask', state: 'waiting' }), step({ id: 'go' })] });
+    screen.getByText('Waiting for your answer, step 1 of 2');
+    expect(screen.queryByRole('button', { name: /Whose plan/ })).toBeNull();
   });
 
   it('marks what a change of a running plan brought', () => {

@@ -10,7 +10,7 @@ import { Choice } from '@/ui/choice';
 import { Icon } from '@/ui/icon';
 import { Empty, Loading, Panel } from '@/ui/panel';
 
-import { pendingSteps, toDrafts } from './editing';
+import { pendingSteps, sinceThen, toDrafts } from './editing';
 import { MissionCard } from '@/ui/mission-card';
 import { goesOn, isOf } from '@/live/missions';
 import { PlanControls } from './plan-controls';
@@ -40,7 +40,7 @@ export function PlanPanel() {
   const plan = pickPlan(shown, picked.whileChosen === chosen.join('\n') ? picked.key : '', chosen);
   const name = (one: PlanView) =>
     one.kind === 'plan' ? t('planOf', { robot: one.robot }) : t('otherTask', { robot: one.robot, name: one.graph_name });
-  const choice = plan && (
+  const choice = plan && shown.length > 1 && (
     <Choice
       label={t('which')}
       hideLabel
@@ -72,15 +72,18 @@ function PlanOf({ plan }: { plan: PlanView }) {
   const waiting = plan.kind === 'plan' ? proposalsOf(proposals, plan.robot) : [];
   const pending = pendingSteps(plan.steps);
   const { lines, current, over } = useMemo(() => divided(plan), [plan]);
+  // Held by nobody, it goes on only with an answer.
+  const isWaiting = plan.state === 'running' && lines[current]?.step.state === 'waiting';
+  const { begun, isSame } = useMemo(() => sinceThen(editing?.steps ?? [], plan.steps), [editing, plan]);
   const close = () => setEditing(null);
   const save = useSaving();
   const remove = useRemoving(plan);
   const steps = useCurrentInView(current - over, editing !== null);
   return (
     <>
-      <div className={css.bar} data-state={plan.state}>
+      <div className={css.bar} data-state={isWaiting ? 'held' : plan.state}>
         <p className={css.state}>
-          {t(`state.${plan.state}`)}
+          {isWaiting ? t('step.waiting') : t(`state.${plan.state}`)}
           {current >= 0 && lines.length > 1 && t('stateStep', { number: current + 1, all: lines.length })}
         </p>
         <HeldBy by={plan.held_by} />
@@ -97,9 +100,10 @@ function PlanOf({ plan }: { plan: PlanView }) {
             key={editing.revision}
             robot={plan.robot}
             steps={toDrafts(pendingSteps(editing.steps))}
+            begun={begun}
             saveLabel={t('common:save')}
             onSave={async (calls) => {
-              const outcome = await save(plan.robot, calls, editing.revision);
+              const outcome = await save(plan.robot, calls, isSame ? plan.revision : editing.revision);
               if (outcome !== 'refused') close();
             }}
             onCancel={close}

@@ -12,6 +12,9 @@ import type { Line } from '@/live/lines';
 
 type Outcome = 'saved' | 'refused' | 'conflict';
 
+const ownPlan = (robot: string) =>
+  Object.values(useLive.getState().world.plans).find((one) => one.robot === robot && one.kind === 'plan');
+
 /** Sends changed steps and says what came of it; `conflict`: the plan has moved on meanwhile. */
 export function useSaving() {
   const { t } = useTranslation('plan');
@@ -23,7 +26,9 @@ export function useSaving() {
       return 'saved';
     } catch (error) {
       const conflict = error instanceof ApiError && error.status === 409;
-      show({ tone: 'error', message: conflict ? t('conflict') : explain(error) });
+      const name = ownPlan(robot)?.graph_name;
+      const stands = () => ownPlan(robot)?.graph_name === name && ownPlan(robot)?.state !== 'ended';
+      show({ tone: 'error', message: conflict ? t('conflict') : explain(error), ...(conflict && { stands }) });
       return conflict ? 'conflict' : 'refused';
     }
   };
@@ -36,9 +41,7 @@ export function usePutBack(plan: PlanView) {
   const save = useSaving();
   return (gone: readonly StepView[], message: string, label = t('common:undo')) => {
     const undo = () => {
-      const now = Object.values(useLive.getState().world.plans).find(
-        (one) => one.robot === plan.robot && one.kind === 'plan',
-      );
+      const now = ownPlan(plan.robot);
       const still = now ? pendingSteps(now.steps) : [];
       void save(plan.robot, putBack(gone, plan.steps, still).map(callOf), now?.revision ?? plan.revision, '');
     };
