@@ -112,6 +112,26 @@ describe.skipIf(!hasBrowser)('an operator with a plan', () => {
     await expect.poll(() => queued.count(), { timeout: PATIENCE_MS }).toBe(count - 1);
   });
 
+  it('presses twice in a hurry, or at once with somebody else, and does it once', async () => {
+    await policy('run_at_once');
+    const [one, two] = await Promise.all([stage.open(sizes.desktop), stage.open(sizes.phone)]);
+    await say(one, 'Go to the sofa.');
+    await two.getByRole('group', { name: 'Possible answers' }).getByRole('button', { name: 'large sofa' }).dblclick();
+    await steps(one).locator('li[data-state="running"]').waitFor();
+    expect(await one.getByText('large sofa', { exact: true }).and(one.locator('li[data-mine="true"] p')).count()).toBe(1);
+    expect(await two.getByRole('button', { name: 'Send again', exact: true }).count()).toBe(0);
+
+    await say(one, 'Then go to the bed, then to the wardrobe, then to the refrigerator.');
+    await expect.poll(() => steps(one).locator('li[data-state="queued"]').count(), { timeout: PATIENCE_MS }).toBe(3);
+    await two.goto(`${stage.system.address}#/plan`);
+    const skips = [one, two].map((page) => page.getByRole('button', { name: 'Skip', exact: true }));
+    await Promise.all(skips.map((skip) => skip.dblclick()));
+    await steps(one).getByText('Go to “bed”').waitFor();
+    await one.getByText('That step is over by now, so there was nothing to leave out.').first().waitFor();
+    const { steps: now = [] } = (await stage.get<{ kind: string; steps: { state: string }[] }[]>('plans/David')).find(({ kind }) => kind === 'plan') ?? {};
+    expect(now.filter(({ state }) => state === 'skipped').length).toBe(1);
+  });
+
   it('is told when somebody else changed the plan meanwhile', async () => {
     await policy('run_at_once');
     const [one, two] = await Promise.all([stage.open(sizes.desktop), stage.open(sizes.desktop)]);

@@ -111,3 +111,21 @@ def test_what_has_no_end_in_the_log_is_not_said_to_have_been_ended() -> None:
     (goes_on,) = rounds_of([start], [], frozenset({("Ada", "one")}))
     assert (lost.state, goes_on.state) == ("unrecorded", "running")
     assert "Its end was not recorded." in round_file(lost, (), (), "en")
+
+
+async def test_what_was_left_out_is_not_told_as_done() -> None:
+    async with logged() as rig:
+        await order(rig, "one", "look at the box and the door", BEGAN_MS)
+        steps = [
+            {"action": LOOK.model_dump(), "label": f"look at the {what}", "state": state}
+            for what, state in (("box", "skipped"), ("door", "skipped"), ("box", "finished"))
+        ]
+        told = {"target": "Ada", "graph_name": "one", "state": "idle", "steps": steps}
+        rig.robots.tell(topics.PLAN, PlanUpdate.model_validate(told))
+        await rig.heard()
+        graph(rig, "one", "FINISHED", BEGAN_MS + 5000)
+        await rig.heard()
+        (found,) = (await rig.http.get("/api/history")).json()["rounds"]
+        assert (found["state"], found["left"]) == ("partly", ["look at the door"])  # the box came later
+        file = (await rig.http.get(f"/api/history/file?number={found['number']}")).text
+        assert "It was done in part." in file and "<dt>Left out</dt><dd>look at the door</dd>" in file

@@ -103,13 +103,14 @@ async def test_a_robot_added_by_name_stays_until_it_is_taken_off(tmp_path: Path)
 )
 async def test_plans_are_controlled_as_by_words(command: str, sent: str) -> None:
     async with served("Ada") as rig:
-        body = {"command": command, "index": 2 if command == "pop" else None}
+        body = {"command": command, "index": 2 if command == "pop" else None, "step": "s1"}
         assert (await rig.http.post("/api/plans/ada/command", json=body)).status_code == 200
         await rig.heard()
         (order,) = rig.robots.orders
         assert order.targets == ("Ada",)
         assert order.system_cmd[0].command == sent
         assert order.system_cmd[0].pop_index == (2 if command == "pop" else None)
+        assert order.system_cmd[0].arguments.get("step") == ("s1" if command == "skip" else None)
 
 
 async def test_a_proposal_is_shown_decided_once_and_gone() -> None:

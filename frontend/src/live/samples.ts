@@ -90,6 +90,7 @@ export const round = (part: Partial<RoundView> & { number: number }): RoundView 
   unix_ms: Date.UTC(2026, 0, 2, 9),
   ended_unix_ms: Date.UTC(2026, 0, 2, 9, 1, 5),
   state: 'done',
+  left: [],
   steps: ['Go to “box”'],
   reason: '',
   pictures: [],

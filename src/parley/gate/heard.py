@@ -28,7 +28,7 @@ from parley.messages.status import (
     StopReport,
 )
 
-__all__ = ["Heard"]
+__all__ = ["Heard", "left_out"]
 
 _REFUSED: Final = {
     "chat_interface_input": Effect.SPEAK, "chat_action": Effect.BEGIN, "umrf_correction": Effect.REPAIR,
@@ -168,7 +168,7 @@ class Heard:
         plan = self._plans.get(event.actor)
         detail = {**facts["detail"], "state": event.state}
         if plan and plan.graph_name == event.graph_name and plan.steps:
-            detail["labels"] = labels(plan.steps)
+            detail |= _done(plan.steps)
         failed = event.state == "ERROR" or event.result == "on_error"
         return AuditEvent.model_validate(
             {"effect": "end", "by": facts["by"], "robot": event.actor, "detail": detail,
@@ -247,6 +247,22 @@ def labels(steps: Sequence[ActionCall] | Sequence[PlanStep]) -> list[str]:
     return [_label(step) for step in steps if not _is_hidden(step)]
 
 
+def left_out(steps: Sequence[PlanStep]) -> list[PlanStep]:
+    """What was left out, but for what a condition excluded, and for what was only put off and done later."""
+    left = []
+    for at, step in enumerate(steps):
+        later = {_label(other) for other in steps[at + 1 :] if other.state == "finished"}
+        excluded = step.action.flow is not None and step.action.flow.if_ is not None
+        if step.state == "skipped" and not excluded and _label(step) not in later:
+            left.append(step)
+    return left
+
+
+def _done(steps: Sequence[PlanStep]) -> dict[str, Any]:
+    left = labels(left_out(steps))
+    return {"labels": labels(steps), **({"left": left} if left else {})}
+
+
 def _is_hidden(step: ActionCall | PlanStep) -> bool:
     return isinstance(step, PlanStep) and step.for_next and step.state not in ("failed", "waiting", "stopped")
 
@@ -272,7 +288,7 @@ def _over(plan: PlanUpdate, facts: dict[str, Any]) -> AuditEvent:
     states = {step.state for step in plan.steps}
     failed = "failed" in states
     state = "ERROR" if failed else "FINISHED" if states <= {"finished", "skipped"} else "STOPPED"
-    detail = {**facts["detail"], "state": state, "labels": labels(plan.steps)}
+    detail = {**facts["detail"], "state": state, **_done(plan.steps)}
     return AuditEvent(
         effect="end", by=facts["by"], robot=plan.target, detail=detail, digest=facts["digest"],
         outcome="failed" if failed else "done", reason=facts.get("reason", "") if failed else "",

@@ -338,7 +338,7 @@ class LogPage(WebModel):
     """Why some of it is not written yet."""
 
 
-RoundState = Literal["running", "done", "failed", "ended", "unrecorded"]
+RoundState = Literal["running", "done", "partly", "failed", "ended", "unrecorded"]
 
 
 class RoundView(WebModel):
@@ -355,8 +355,10 @@ class RoundView(WebModel):
     ended_unix_ms: int = 0
     """0: it goes on, or its end was never heard."""
     state: RoundState
-    """`ended`: before it was done; `unrecorded`: it does not go on, and the log has no end of it."""
+    """`partly`: done but for `left`; `ended`: before it was done; `unrecorded`: it does not go on, and the log has no end of it."""
     steps: tuple[str, ...] = ()
+    left: tuple[str, ...] = ()
+    """Those of them that were left out."""
     reason: str = ""
     """Why it failed."""
     pictures: tuple[str, ...] = ()

@@ -19,8 +19,8 @@ _STYLE: Final = (
     "dt{font-weight:600}dd{margin:0 0 .6rem}img{max-width:100%;margin:.5rem 0}time{color:#555}"
 )
 _STATES: Final = {
-    "running": "It goes on.", "done": "It was done.", "failed": "It was not got done.",
-    "ended": "It was ended before it was done.", "unrecorded": "Its end was not recorded.",
+    "running": "It goes on.", "done": "It was done.", "partly": "It was done in part.",
+    "failed": "It was not got done.", "ended": "It was ended before it was done.", "unrecorded": "Its end was not recorded.",
 }  # fmt: skip
 
 
@@ -54,6 +54,7 @@ def round_file(
         (sentence("Began"), f"{day:%Y-%m-%d %H:%M:%S}"),
         (sentence("Ended"), _clock(told.ended_unix_ms)),
         (sentence("How it ended"), f"{ours(sentence(_STATES[told.state]))} {ours(told.reason)}".strip()),
+        (sentence("Left out"), "; ".join(ours(step) for step in told.left)),
     ]
     rows = "".join(f"<dt>{ours(name)}</dt><dd>{value}</dd>" for name, value in facts if value)
     steps = "".join(f"<li>{ours(step)}</li>" for step in told.steps)

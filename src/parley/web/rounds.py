@@ -84,7 +84,6 @@ def _round(
     start: AuditEntry, end: AuditEntry | None, is_running: bool, language: SpokenLanguage
 ) -> RoundView:
     last = end or start
-    steps = last.detail.get("labels")
     by = _principal(start.detail.get("asked_by")) or start.by
     approved = _principal(start.detail.get("approved_by"))
     return RoundView(
@@ -96,7 +95,8 @@ def _round(
         unix_ms=start.unix_ms,
         ended_unix_ms=end.unix_ms if end else 0,
         state=_state(end, is_running),
-        steps=tuple(in_language(str(step), language) for step in steps) if isinstance(steps, list) else (),
+        steps=_texts(last, "labels", language),
+        left=_texts(last, "left", language),
         reason=in_language(end.reason, language) if end else "",
     )
 
@@ -106,7 +106,14 @@ def _state(end: AuditEntry | None, is_running: bool) -> RoundState:
         return "running" if is_running else "unrecorded"
     if end.outcome == "failed":
         return "failed"
-    return "ended" if end.detail.get("state") == "STOPPED" else "done"
+    if end.detail.get("state") == "STOPPED":
+        return "ended"
+    return "partly" if end.detail.get("left") else "done"
+
+
+def _texts(entry: AuditEntry, name: str, language: SpokenLanguage) -> tuple[str, ...]:
+    found = entry.detail.get(name)
+    return tuple(in_language(str(text), language) for text in found) if isinstance(found, list) else ()
 
 
 def _graph(entry: AuditEntry) -> Graph:

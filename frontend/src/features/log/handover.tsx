@@ -13,7 +13,7 @@ import { Shown } from './narrowing';
 import { RoundLine } from './rounds';
 
 const HOUR_MS = 3_600_000;
-const states = { failed: ['failed', 'ended', 'unrecorded'], running: ['running'], done: ['done'] } as const;
+const states = { failed: ['failed', 'ended', 'unrecorded'], running: ['running'], done: ['done', 'partly'] } as const;
 const hours = ['8', '12', '24'] as const;
 
 /** What the next shift has to know, to read or to print. */

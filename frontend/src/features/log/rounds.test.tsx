@@ -15,7 +15,7 @@ const looked = round({ number: 7, words: 'look at the box', state: 'failed', rea
 
 beforeEach(() => {
   asked = [];
-  const handover = { since_unix_ms: 1, until_unix_ms: 2, rounds: [looked, lost, round({ number: 9 })], waits: [], stops: [[1, 'Kim stopped Ada.']], rules: [] };
+  const handover = { since_unix_ms: 1, until_unix_ms: 2, rounds: [looked, lost, round({ number: 9, state: 'partly', left: ['Look at the bed'] })], waits: [], stops: [[1, 'Kim stopped Ada.']], rules: [] };
   const answers = { history: { json: { rounds: [round({ number: 9 }), looked], complete: false } }, 'history/handover': { json: handover } };
   vi.stubGlobal('fetch', network(answers, asked));
   useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada' })] }));
@@ -44,7 +44,7 @@ it('tells the next shift what failed, apart from what was done, and who stopped 
   await screen.findByRole('article');
   part('Did not work, was ended early, or its end was not recorded').getByText(/Look at the box – It is hidden\./);
   part('Did not work, was ended early, or its end was not recorded').getByText(/Look at the door/);
-  part('Done').getByText(/Kim \(phone\) to Ada: Go to the box/);
+  part('Done').getByText(/Kim \(phone\) to Ada: Go to the box – Left out: Look at the bed/);
   part('Stops').getByText(/Kim stopped Ada\./);
   part('Waits for somebody').getByText('Nothing.');
 });

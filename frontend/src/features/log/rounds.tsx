@@ -67,14 +67,14 @@ function List({ rounds, narrowed }: { rounds: readonly RoundView[]; narrowed: bo
   );
 }
 
-const icons: Record<RoundView['state'], IconName> = { running: 'play', done: 'check', failed: 'bang', ended: 'cross', unrecorded: 'question' };
+const icons: Record<RoundView['state'], IconName> = { running: 'play', done: 'check', partly: 'skip', failed: 'bang', ended: 'cross', unrecorded: 'question' };
 
 function Round({ round }: { round: RoundView }) {
   const { t, i18n } = useTranslation('log');
   const now = useNow(MINUTE_MS);
   const steps = round.steps ?? [];
   const title = titleOf(round);
-  const { by, words, approved_by: yes, ended_unix_ms: ended = 0 } = round;
+  const { by, words, approved_by: yes, ended_unix_ms: ended = 0, left = [] } = round;
   return (
     <li className={css.round} data-state={round.state}>
       <p className={css.roundHead}>
@@ -87,6 +87,7 @@ function Round({ round }: { round: RoundView }) {
       </p>
       <h3>{title}</h3>
       {round.reason && <p>{round.reason}</p>}
+      {left.length > 0 && <p>{t('left', { what: left.join('; ') })}</p>}
       {yes && <p>{t('yes', { who: yes })}</p>}
       {steps.length > 0 && (
         <details>
@@ -150,11 +151,12 @@ export const titleOf = (round: RoundView) => sentence(round.words ?? '') || sent
 /** One round in one line, for those who come after. */
 export function RoundLine({ round }: { round: RoundView }) {
   const { t, i18n } = useTranslation('log');
-  const { by } = round;
+  const { by, left = [] } = round;
   return (
     <li>
       <time>{clockTime(round.unix_ms, i18n.language)}</time> {by ? t('by', { who: by, robot: round.robot }) : round.robot}: {titleOf(round)}
       {round.reason && <> – {round.reason}</>}
+      {left.length > 0 && <> – {t('left', { what: left.join('; ') })}</>}
     </li>
   );
 }

@@ -20,14 +20,13 @@ export interface DraftStep {
 /** Steps that may still be changed: those that have not begun. */
 export const pendingSteps = (steps: readonly StepView[]) => steps.filter((step) => step.state === 'queued');
 
-/** Which of the steps that could be changed have begun (or gone) since, and whether nothing else is otherwise. */
+/** Which of the steps that could be changed have begun since, and whether nothing else is otherwise. */
 export function sinceThen(then: readonly StepView[], now: readonly StepView[]) {
-  const [before, still] = [pendingSteps(then), pendingSteps(now)];
   const key = (step?: StepView) => step && (step.planned || step.id);
-  const waits = (step: StepView) => still.some((one) => key(one) === key(step));
-  const left = before.filter(waits);
+  const begun = pendingSteps(then).filter((step) => now.some((one) => key(one) === key(step) && one.state !== 'queued'));
+  const [left, still] = [pendingSteps(then).filter((step) => !begun.includes(step)), pendingSteps(now)];
   return {
-    begun: new Set(before.filter((step) => !waits(step)).map((step) => step.id)),
+    begun: new Set(begun.map((step) => step.id)),
     isSame: left.length === still.length && left.every((step, at) => key(step) === key(still[at])),
   };
 }

@@ -1,7 +1,7 @@
 import { useContext, useEffect, useMemo, useRef, useState, type Ref } from 'react';
 import { useTranslation } from 'react-i18next';
 
-import { useLive, useWorld } from '@/live/store';
+import { useWorld } from '@/live/store';
 import type { PlanView, ProposalView, StepState } from '@/live/types';
 import { planKey } from '@/live/world';
 import { useSelection } from '@/state/selection';
@@ -13,7 +13,7 @@ import { Empty, Loading, Panel } from '@/ui/panel';
 import { pendingSteps, sinceThen, toDrafts } from './editing';
 import { MissionCard } from '@/ui/mission-card';
 import { goesOn, isOf } from '@/live/missions';
-import { PlanControls } from './plan-controls';
+import { PlanBar } from './plan-bar';
 import { PlanEditor } from './plan-editor';
 import { isEarlier, linesOf, type Line } from '@/live/lines';
 import { withReceived } from './parameters';
@@ -72,8 +72,6 @@ function PlanOf({ plan }: { plan: PlanView }) {
   const waiting = plan.kind === 'plan' ? proposalsOf(proposals, plan.robot) : [];
   const pending = pendingSteps(plan.steps);
   const { lines, current, over } = useMemo(() => divided(plan), [plan]);
-  // Held by nobody, it goes on only with an answer.
-  const isWaiting = plan.state === 'running' && lines[current]?.step.state === 'waiting';
   const { begun, isSame } = useMemo(() => sinceThen(editing?.steps ?? [], plan.steps), [editing, plan]);
   const close = () => setEditing(null);
   const save = useSaving();
@@ -81,15 +79,7 @@ function PlanOf({ plan }: { plan: PlanView }) {
   const steps = useCurrentInView(current - over, editing !== null);
   return (
     <>
-      <div className={css.bar} data-state={isWaiting ? 'held' : plan.state}>
-        <p className={css.state}>
-          {isWaiting ? t('step.waiting') : t(`state.${plan.state}`)}
-          {current >= 0 && lines.length > 1 && t('stateStep', { number: current + 1, all: lines.length })}
-        </p>
-        <HeldBy by={plan.held_by} />
-        <Away robot={plan.robot} />
-        <PlanControls plan={plan} onEdit={pending.length > 0 && !editing ? () => setEditing(plan) : null} />
-      </div>
+      <PlanBar plan={plan} lines={lines} current={current} onEdit={pending.length > 0 && !editing ? () => setEditing(plan) : null} />
       {/* eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex -- what scrolls must be reachable by keys */}
       <div className={css.scroller} tabIndex={0} role="region" aria-label={t('steps')}>
         <Together robot={plan.robot} />
@@ -119,15 +109,6 @@ function PlanOf({ plan }: { plan: PlanView }) {
       {!editing && <Foot plan={plan} />}
     </>
   );
-}
-
-/** Why what is shown may not be how it is. */
-function Away({ robot }: { robot: string }) {
-  const { t } = useTranslation('plan');
-  const here = useWorld((world) => world.robots[robot]?.connection === 'here');
-  const lost = useLive((live) => live.connection === 'lost');
-  if (here && !lost) return null;
-  return <p className={css.away}>{lost ? t('old') : t('away', { robot })}</p>;
 }
 
 /** What the robot does with others: all that goes on, or else what ended last. */
@@ -220,12 +201,6 @@ function Steps({ title, from, lines, plan, isFolded = false, isEditing = false, 
       )}
     </section>
   );
-}
-
-/** Who told it to stand still. */
-function HeldBy({ by }: { by: PlanView['held_by'] }) {
-  const { t } = useTranslation('plan');
-  return by?.name ? <p>{t('heldBy', { who: by.name })}</p> : null;
 }
 
 /** Brings the step that is being done into view when another one's turn has come. */

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from parley.agents.chat.texts import SAY_CARRY_ON
+from parley.gate.heard import left_out
 from parley.messages.status import ActionInfo, PlanStep, PlanUpdate
 from parley.sentences import sentence
 
@@ -70,7 +71,7 @@ class Finishing:
         moving = {info.name for info in catalogue if "moves" in info.effects}
         if any(step.state in ("stopped", "failed") for step in steps):
             return ""
-        left = [*_skipped(steps), *_less(done, job.failed)]
+        left = [*left_out(steps), *_less(done, job.failed)]
         if not left and not any(step.action.name in moving for step in done):
             return ""
         if not left and len(steps) < 2 and self._now_s() - job.began_s < _SHORT_S:
@@ -82,17 +83,6 @@ class Finishing:
         if len(named) > _NAMED:
             what = sentence("{first} and {count} more", first=what, count=len(named) - _NAMED)
         return sentence("I have finished: {what}.", what=what)
-
-
-def _skipped(steps: Sequence[PlanStep]) -> list[PlanStep]:
-    """What was left out, but for what a condition excluded, and for what was only put off and done later."""
-    left = []
-    for at, step in enumerate(steps):
-        later = {_said(other) for other in steps[at + 1 :] if other.state == "finished"}
-        excluded = step.action.flow is not None and step.action.flow.if_ is not None
-        if step.state == "skipped" and not excluded and _said(step) not in later:
-            left.append(step)
-    return left
 
 
 def _said(step: PlanStep) -> str:
