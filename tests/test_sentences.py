@@ -15,6 +15,7 @@ import parley
 from parley.config import SystemConfig
 from parley.demos.catalogue import load_demo
 from parley.sentences import in_language, listed, sentence, together
+from parley.web.showing import shown_in
 from tests.demos.house import running
 
 SOURCE = Path(parley.__file__).parent
@@ -143,6 +144,15 @@ def test_a_sentence_ends_once_whatever_is_filled_in_before_its_end(said: str, sh
     assert said.endswith(shown)
     for text in (said, str(said)):
         assert not re.search(r"(?<!\.)\.[”“]?\.(?!\.)", in_language(text, "et"))
+
+
+def test_a_step_that_is_named_in_a_sentence_or_a_record_is_named_in_its_language() -> None:
+    template = "I was interrupted while I was at “{step}”. Please give the order again if it still holds."
+    text = sentence(template, step="go to the bed")
+    for told in (text, str(text)):
+        assert "„mine kohta bed“" in in_language(told, "et")
+    failed = {"step": {"Inspect": {"input_parameters": {"it": {"pvf_value": "box"}}, "reason": "look for the box"}}}
+    assert shown_in("et", failed)["step"]["Inspect"] == {**failed["step"]["Inspect"], "reason": "otsi box"}
 
 
 def test_the_label_of_a_step_that_asks_holds_the_question_in_the_same_language() -> None:

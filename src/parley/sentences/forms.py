@@ -32,9 +32,9 @@ _SHORT: Final = 4
 def is_own(template: str, name: str) -> bool:
     """Whether what is filled in for `name` is somebody's own words, which are said in no other language.
 
-    A `question` is a robot's, also between quotation marks.
+    A `question` and a `step` are a robot's, also between quotation marks.
     """
-    return name != "question" and (name.startswith("words") or f"“{{{name}}}”" in template)
+    return name not in ("question", "step") and (name.startswith("words") or f"“{{{name}}}”" in template)
 
 
 @dataclass(frozen=True)

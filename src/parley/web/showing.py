@@ -33,7 +33,7 @@ _WORDED: Final = frozenset(
     | {"language", "detail", "remedy", "title"}
 )
 """Fields that hold what is said to people."""
-_KEPT: Final = frozenset({"call", "step", "inputs", "outputs", "author", "answered"})
+_KEPT: Final = frozenset({"call", "inputs", "outputs", "author", "answered"})
 """What is sent back as it is, or was said by people."""
 
 
