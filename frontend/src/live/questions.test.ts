@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 
 import { entry } from './samples';
 
-import { answering, conversation, offering, openQuestions } from './questions';
+import { answering, askedAnew, conversation, offering, openQuestions } from './questions';
 
 const question = (id: string, seq: number, target: string, state: 'open' | 'answered' = 'open') =>
   entry({ id, seq, targets: [target], type: 'request', question: state });
@@ -17,6 +17,13 @@ describe('open questions', () => {
     expect([...open.keys()]).toEqual(['Ada']);
     expect(open.get('Ada')?.id).toBe('q2');
   });
+});
+
+it('says of a question that it was not answered where the robot asks the same right after', () => {
+  const asks = (seq: number) => entry({ id: `q${seq}`, seq, targets: ['Ada'], message: 'Which one?', type: 'request', question: 'answered' });
+  const says = (seq: number, who: 'operator' | 'robot') => entry({ id: `s${seq}`, seq, who, targets: ['Ada'] });
+  const chat = [asks(1), says(2, 'operator'), says(3, 'robot'), asks(4), says(5, 'operator'), says(6, 'robot'), says(7, 'operator'), asks(8)];
+  expect([...askedAnew(chat)]).toEqual(['q1']); // what was asked by another order later is no repetition
 });
 
 describe('a message to several robots', () => {

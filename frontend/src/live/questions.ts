@@ -52,6 +52,24 @@ export function offering(chat: readonly ChatEntry[]): ReadonlySet<string> {
   return offers;
 }
 
+/** Keys of the questions that were asked once more after the next thing that was said to the robot: that was no answer. */
+export function askedAnew(chat: readonly ChatEntry[]): ReadonlySet<string> {
+  const anew = new Set<string>();
+  const last = new Map<string, { entry: ChatEntry; said: number }>();
+  for (const entry of chat) {
+    for (const robot of entry.targets) {
+      const before = last.get(robot);
+      if (entry.who === 'operator') {
+        if (before) before.said += 1;
+      } else if (entry.question !== '') {
+        if (before?.said === 1 && before.entry.message === entry.message) anew.add(before.entry.id);
+        last.set(robot, { entry, said: 0 });
+      }
+    }
+  }
+  return anew;
+}
+
 /** What a person has to answer before a robot goes on, oldest first: questions, and offers of a robot that waits for help. */
 export function askedOf(chat: readonly ChatEntry[], helpless: ReadonlySet<string>): readonly ChatEntry[] {
   const offers = offering(chat);

@@ -21,12 +21,14 @@ interface Props {
   offers: boolean;
   /** Whether the robot waits for an answer to it. */
   asks: boolean;
+  /** Whether it asked the same once more later. */
+  isAnew?: boolean;
   onChoose: (entry: ChatEntry, choice: string) => void;
   onEdit: (text: string) => void;
 }
 
 /** One thing said. */
-export const Entry = memo(function Entry({ entry, showName, isStop, offers, asks, onChoose, onEdit }: Props) {
+export const Entry = memo(function Entry({ entry, showName, isStop, offers, asks, isAnew = false, onChoose, onEdit }: Props) {
   const debug = usePrefs((prefs) => prefs.debug);
   const mine = entry.who === 'operator';
   return (
@@ -40,7 +42,7 @@ export const Entry = memo(function Entry({ entry, showName, isStop, offers, asks
       data-draft={entry.draft || undefined}
       aria-live={entry.draft ? 'off' : undefined}
     >
-      {(showName || debug || asks || hasMarks(entry)) && <Head entry={entry} asks={asks} debug={debug} />}
+      {(showName || debug || asks || hasMarks(entry)) && <Head entry={entry} asks={asks} isAnew={isAnew} debug={debug} />}
       <div className={css.said}>
         <Said entry={entry} />
       </div>
@@ -85,7 +87,7 @@ function Said({ entry }: { entry: ChatEntry }) {
   );
 }
 
-function Head({ entry, asks, debug }: { entry: ChatEntry; asks: boolean; debug: boolean }) {
+function Head({ entry, asks, isAnew, debug }: { entry: ChatEntry; asks: boolean; isAnew: boolean; debug: boolean }) {
   const { t, i18n } = useTranslation('chat');
   const names = nameList(entry.targets, i18n.language);
   return (
@@ -99,7 +101,7 @@ function Head({ entry, asks, debug }: { entry: ChatEntry; asks: boolean; debug: 
         <>
           <strong>{names || t('everyone')}</strong>
           {asks && <span className={css.badge}>{t('asks')}</span>}
-          {entry.question === 'answered' && <span>{t('answered')}</span>}
+          {entry.question === 'answered' && <span>{t(isAnew ? 'askedAnew' : 'answered')}</span>}
           {entry.question === 'closed' && <span>{t('closed')}</span>}
           {entry.engine && <span data-engine>{entry.engine}</span>}
         </>

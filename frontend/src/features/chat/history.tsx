@@ -12,7 +12,7 @@ import { Entry } from './entry';
 import css from './history.module.css';
 import { undelivered, useOutbox } from '@/state/outbox';
 import { PendingEntry } from './pending-entry';
-import { offering } from '@/live/questions';
+import { askedAnew, offering } from '@/live/questions';
 import { Thinking } from './thinking';
 import { useMomentShown } from './use-moment';
 import { useStickToEnd } from './use-stick-to-end';
@@ -47,6 +47,7 @@ export function History({ entries, asked, onChoose, onEdit, empty }: Props) {
   const [shown, setShown] = useState(PAGE);
   const { scroller, atEnd, unseen, toEnd, keepPlace } = useStickToEnd(entries, waiting.length, shown);
   const offers = useMemo(() => offering(entries.filter((one) => !asked.includes(one))), [entries, asked]);
+  const anew = useMemo(() => askedAnew(entries), [entries]);
   const visible = entries.slice(-shown);
   const more = shown < entries.length || !complete;
 
@@ -87,6 +88,7 @@ export function History({ entries, asked, onChoose, onEdit, empty }: Props) {
                 entry={entry}
                 offers={offers.has(entry.id)}
                 asks={asked.includes(entry)}
+                isAnew={anew.has(entry.id)}
                 isStop={entry.id === stop}
                 showName={newDay || !sameSpeaker(before, entry)}
                 onChoose={onChoose}
