@@ -155,6 +155,17 @@ def test_a_step_that_is_named_in_a_sentence_or_a_record_is_named_in_its_language
     assert shown_in("et", failed)["step"]["Inspect"] == {**failed["step"]["Inspect"], "reason": "otsi box"}
 
 
+def test_how_an_order_is_shared_is_told_in_one_language() -> None:
+    told = (
+        "This is how we do it. Ada: 1. Go to “A”, 2. Look with the camera: “A” (Ada is nearest to “A”). "
+        "Ben: 1. Go to “B” (that way all of it is done soonest)."
+    )
+    assert in_language(told, "et") == (
+        "Me teeme nii. Ada: 1. Mine kohta „A“, 2. Vaata kaameraga: „A“ (kohale „A“ on kõige lähemal Ada). "
+        "Ben: 1. Mine kohta „B“ (nii on kõik kõige varem tehtud)."
+    )
+
+
 def test_the_label_of_a_step_that_asks_holds_the_question_in_the_same_language() -> None:
     asked = "I cannot pick things up. Please put the red box on me and tell me when it is done."
     assert in_language(f"Ask you: “{asked}”", "et") == f"Küsi sinult: „{in_language(asked, 'et')}“"

@@ -93,6 +93,8 @@ def _filling(template: str, name: str, behind: str) -> str:
     if template[-1:] not in ".?!:”" and name not in ("first", "last", "list", "steps"):
         return r"(?:(?!, |; | and then ).)+?"  # one of several
     whole = not name.startswith("words") and (not behind or re.match(r" (?:[A-Z“]|$)", behind))
+    if name == "steps" and not whole:  # they are numbered: "1. Go"
+        return r"(?:(?!(?<!\d)[.?!]\s+[A-Z“]).)+?"
     return ".+?" if whole else r"(?:(?![.?!]\s+[A-Z“]).)+?"
 
 

@@ -95,7 +95,7 @@ class Missions:
         if found is None:
             return
         other, reason = found
-        words = f"Let {other} take over from {robot}"
+        words = str(sentence("Let {other} take over from {robot}", other=other, robot=robot))
         text = sentence("{other} could do what is left of {robot}’s part ({why}). Say “{words}” if it shall.",
                         other=other, robot=robot, why=reason, words=words)  # fmt: skip
         feedback = ChatFeedback(

@@ -328,7 +328,9 @@ class _Work:
         if not words:
             others = [name for name in self._members if name != part.robot and self._team.left(name)]
             if part.robot and len(others) == 1 and not self._team.left(part.robot):
-                take_over = f"Let {part.robot} take over from {others[0]}"
+                take_over = str(
+                    sentence("Let {other} take over from {robot}", other=part.robot, robot=others[0])
+                )
                 asked = sentence(
                     "Do you mean what {robot} is at? Then say “{words}”.", robot=others[0], words=take_over
                 )
