@@ -29,9 +29,12 @@ class Follower:
 
     def plan(self, state: State, *steps: tuple[str, str], graph: str = "g1", **more: Any) -> None:
         shown = tuple(
-            PlanStep(action=ActionCall(name=name, reason=name.lower(), **more), state=state_of)
+            PlanStep.model_validate({
+                "action": ActionCall(name=name.partition(" ")[0], reason=name.lower(), **more),
+                "id": name, "state": state_of,
+            })
             for name, state_of in steps
-        )
+        )  # fmt: skip
         update = PlanUpdate(target="Ada", graph_name=graph, state=state, steps=shown)
         if text := self.finishing.on_update(update, CATALOGUE):
             self.told.append(text)
@@ -83,6 +86,14 @@ def test_a_step_that_its_condition_excluded_is_nothing_left_out(ada: Follower) -
     )
     text = ada.finishing.on_update(PlanUpdate(target="Ada", graph_name="g1", steps=steps), CATALOGUE)
     assert text == "I have finished: drive."
+
+
+def test_of_steps_that_are_alike_the_one_that_was_left_out_is_named(ada: Follower) -> None:
+    ada.plan(
+        "held", ("Drive", "finished"), ("Look a", "finished"), ("Look b", "failed"), ("Look c", "queued")
+    )
+    ada.plan("idle", ("Drive", "finished"), ("Look a", "finished"), ("Look c", "finished"))
+    assert ada.told == ["I have finished. I left out: look b."]
 
 
 def test_after_a_repair_that_left_the_failed_step_out_it_is_named(ada: Follower) -> None:

@@ -166,6 +166,17 @@ async def test_who_was_stopped_goes_with_the_yes_to_something_else_and_not_by_a_
         assert home.distance_m("area_b", "TIAGo") < 1.6
 
 
+async def test_going_on_past_what_was_found_does_not_look_again_and_who_wants_to_know_is_told_it() -> None:
+    async with hall() as home:
+        await home.say("check if Area C is clear", "Leo")
+        assert "red crate in Area C" in (await home.question("Leo")).message
+        await home.say("go on", "Leo")  # nobody pressed it: it is said
+        assert await home.done("Leo") == ["finished", "finished"]
+        assert sum("not clear" in said.message for said in home.observer.said if said.type == "info") == 1
+        assert "red crate" in (await home.say("did any of you find anything?", "TIAGo")).message
+        assert "is clear" in (await home.say("Is Area C clear?", "Spot")).message  # it offers to look
+
+
 async def test_who_follows_begins_when_the_other_is_there() -> None:
     async with hall() as home:
         await home.say("Leo goes to Area C, Spot follows when it is there", "TIAGo")

@@ -102,6 +102,19 @@ async def test_who_is_stopped_in_the_doorway_is_waited_for_and_who_waits_can_be_
         assert set(await home.done("Kim")) == {"finished"}
 
 
+async def test_who_stands_in_the_doorway_and_is_seen_from_afar_is_waited_for_and_not_given_up() -> None:
+    async with halls() as (home, _):
+        await home.say("go to the passage", "Lee")
+        assert set(await home.done("Lee")) == {"finished"}
+        await home.say("go to the shelf", "Kim")
+        assert set(await home.done("Kim")) == {"finished"}  # where it sees Lee from
+        await home.say("go to the lamp", "Kim")
+        await home.observer.until(lambda: _waits(home, "Kim"), timeout_s=PATIENCE_S)
+        await home.say("go to the desk", "Lee")
+        assert set(await home.done("Kim")) == {"finished"}
+        assert home.distance_m("lamp_1", "Kim") < 1.0
+
+
 def _in_passage(home: House, robot: str) -> bool:
     (passage,) = home.system.objects.areas
     pose = home.system.robots[robot].pose()

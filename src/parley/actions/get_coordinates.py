@@ -14,6 +14,7 @@ from parley.umrf.action import action
 from parley.world.approach import approach_pose
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
+from parley.world.whereabouts import called
 
 __all__ = ["Coordinates", "get_coordinates", "spot_at"]
 
@@ -55,7 +56,7 @@ async def get_coordinates(ctx: ActionContext, target: str) -> Coordinates:
         side = "in" if thing.area else "in front of"
         raise ActionFailure(
             FailureCode.UNREACHABLE,
-            f"I know the {thing.description}, but I see no free spot {side} it that I can get to.",
+            f"I know {called(thing.description)}, but I see no free spot {side} it that I can get to.",
             {"target": target, "object": thing.id},
         )
     return Coordinates(Pose.of(spot))

@@ -11,6 +11,7 @@ from parley.errors import ActionFailure, FailureCode
 from parley.robots.base import NavigationControl
 from parley.umrf.action import Outcome, action
 from parley.world.object_map import ObjectMap
+from parley.world.whereabouts import called
 
 __all__ = ["TIMEOUT_S", "navigate_to"]
 
@@ -52,5 +53,5 @@ def _in_words(failure: ActionFailure, known: ObjectMap) -> ActionFailure:
     if failure.code is not FailureCode.BLOCKED or not isinstance(at, dict) or not known.objects:
         return failure
     nearest = min(known.objects, key=lambda item: math.hypot(item.x_m - at["x"], item.y_m - at["y"]))
-    text = f"Something is in the way by the {nearest.description}, and I found no way around it."
+    text = f"Something is in the way by {called(nearest.description)}, and I found no way around it."
     return ActionFailure(failure.code, text, {**failure.details, "near": nearest.id})

@@ -134,7 +134,7 @@ class RunRobot:
             return not turn.may_go(self._robot.planned_path())
 
         held = replace(control, paused=stands)
-        drive = asyncio.ensure_future(self._robot.navigate(goal, held, timeout_s=timeout_s))
+        drive = asyncio.ensure_future(self._driven(goal, held, timeout_s))
 
         def end() -> None:
             loop.call_soon_threadsafe(drive.cancel)
@@ -162,6 +162,18 @@ class RunRobot:
             drive.cancel()
             motion.on_paused.remove(stand)
             forget()
+
+    async def _driven(self, goal: Pose2D, control: NavigationControl, timeout_s: float) -> Pose2D:
+        """Drive there; another robot that is in a narrow place, and so in the way, is waited for."""
+        while True:
+            try:
+                return await self._robot.navigate(goal, control, timeout_s=timeout_s)
+            except ActionFailure as failure:
+                at = failure.details.get("at")
+                if failure.code is not FailureCode.BLOCKED or not isinstance(at, dict):
+                    raise
+                if not await self._turn.cleared((at["x"], at["y"])):
+                    raise
 
     def halt(self) -> None:
         """See `Robot.halt`: standing still is always allowed, holding the robot is not an action's to do.

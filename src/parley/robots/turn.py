@@ -33,6 +33,8 @@ _WAIT_M: Final = 1.0
 """So far before a place a robot waits, so that another one can come out past it."""
 _TOUCH_M: Final = 0.1
 _BRAKE_S: Final = 0.6
+_BESIDE_M: Final = 0.5
+"""What blocks a way so near to a place may well be who stands in it."""
 _LOOK_AGAIN_M: Final = 0.2
 _REST_S: Final = 2.0
 """Robot time after which what was driven towards without a goal is not asked for any more."""
@@ -86,6 +88,8 @@ class Turn:
         self._ahead: tuple[str, ...] = ()
         self._looked_at: tuple[Point, Point] | None = None
         self._drives = 0
+        self._busy: set[str] = set()
+        """In which places somebody else was when the drive began."""
         self._asked_s = 0.0
 
     def _limited(self) -> list[MapArea]:
@@ -147,6 +151,7 @@ class Turn:
     def begin(self) -> None:
         """A drive to a goal begins."""
         self._drives += 1
+        self._busy = {area.name for area in self._limited() if self._others(area.name)}
         self._ahead, self._looked_at = (), None
 
     def end(self) -> None:
@@ -160,6 +165,31 @@ class Turn:
         if self._claim.wants:
             self._want((), ())
         self._wait_for("")
+
+    async def cleared(self, at: Point) -> bool:
+        """Whether whoever is in a place was in the way there, and is out of it now; it is waited for.
+
+        Args:
+            at: Where the way is blocked: seen from afar, one who stands in a doorway closes it.
+        """
+        limited = self._limited()
+        reach_m = self._robot.radius_m + _BESIDE_M
+        near = [area.name for area in limited if area.gap_m(*at) < reach_m]
+        place = next((name for name in near if self._others(name) or name in self._busy), "")
+        if not place:
+            return False
+        self._busy.discard(place)  # who was in it may stand before it for a moment
+        self._want((place,), limited)
+        while self._others(place):
+            self._wait_for(place)
+            await self._some_time()
+        self._wait_for("")
+        return True
+
+    def _others(self, place: str) -> tuple[str, ...]:
+        """Who else is in a place."""
+        told = next((one.robots for one in self._told.places if one.name == place), ())
+        return tuple(name for name in told if name != self._robot.name)
 
     async def attend(self, person: Asker) -> None:
         """While a drive goes on: tell and ask what there is to say of its waiting; never returns.
@@ -265,7 +295,7 @@ class Turn:
         me = self._robot.name
         known = me in state.waiting or me in state.robots
         first = state.waiting[: state.waiting.index(me)] if me in state.waiting else ()
-        others = tuple(name for name in state.robots if name != me) or first
+        others = self._others(place) or first
         wait = _Wait(place, others, state.lost, me in self._told.stuck, known)
         if wait != self._wait:
             self._wait = wait

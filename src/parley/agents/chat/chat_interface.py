@@ -65,6 +65,7 @@ from parley.world.object_map import MapObject
 
 __all__ = ["ChatInterface"]
 
+_AGAIN: Final = {"again", "retry"}
 _SHORT_WORDS: Final = 3
 _HALTING: Final = ("stop", "clear", "emergency_stop")
 """Controls after which nothing that was said before may still set a robot in motion."""
@@ -338,6 +339,11 @@ class ChatInterface(Node):
         """Whether "go on" answers a question; while the robot is paused it means to go on."""
         return question is not None and control == "start" and self._known.state(target) != "paused"
 
+    def _offers_past(self, target: str, message: str) -> bool:
+        """Whether "go on" means to leave what was seen as it is: a robot asks just that."""
+        asked = self._questions.newest(target)
+        return asked is not None and "go on" in asked.choices and not _AGAIN & {*message.lower().split()}
+
     def _says_no(self, message: str, control: Control | None) -> bool:
         """Whether somebody says no in any words that are not a control word or about an older message."""
         in_other_words = control is None and not texts.is_never_mind(message)
@@ -541,7 +547,8 @@ class ChatInterface(Node):
         elif (
             not reply or control in _HALTING
         ):  # stopping is sent in any case: the plan may be newer than known
-            command = SystemCommand(command=control)
+            past = control == "start" and state == "held" and self._offers_past(target, said.message)
+            command = SystemCommand(command="skip" if past else control)
             order = ChatAction(
                 system_cmd=(command,), targets=(target,), by=said.who, words=said.message, reply_to=said.id
             )

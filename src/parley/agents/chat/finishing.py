@@ -91,14 +91,17 @@ def _said(step: PlanStep) -> str:
 
 def _less(done: Sequence[PlanStep], once: Sequence[PlanStep]) -> list[PlanStep]:
     """Of the plan that had failed, what was left out in the end."""
-    names = [step.action.name for step in done]
+    known, here = {step.id for step in once}, {step.id for step in done}
+    spare = [step.action.name for step in done if step.id not in known]  # done in the place of others
     left = []
-    for step in reversed(once):
-        if step.action.name in names:
-            names.remove(step.action.name)
-        elif step.state != "skipped":
+    for step in once:
+        if step.id in here or step.state in ("skipped", "finished"):
+            continue
+        if step.action.name in spare:
+            spare.remove(step.action.name)
+        else:
             left.append(step)
-    return left[::-1]
+    return left
 
 
 def _named(steps: Sequence[PlanStep], catalogue: Sequence[ActionInfo]) -> list[str]:

@@ -21,6 +21,7 @@ from parley.language.dialogue.mentions import Named, named
 from parley.messages.chat import ActionCall
 from parley.messages.status import PlanStep
 from parley.world.object_map import MapObject
+from parley.world.whereabouts import called
 
 __all__ = [
     "Change",
@@ -341,14 +342,15 @@ def _replaced(plan: Sequence[Visit], against: Sequence[Named], wanted: Named, te
         return Change(question=which_one(names), choices=names)
     target = wanted.things[0]
     if any(target in visit.things for visit in plan if visit not in old[:1] or not against):
-        asked = f"The {target.description} is in my plan already. Shall I go there first, or leave it out?"
-        return Change(question=asked)
+        name = called(target.description)
+        asked = "is in my plan already. Shall I go there first, or leave it out?"
+        return Change(question=f"{name[:1].upper()}{name[1:]} {asked}")
     deed = _deed_of(plan, old[0])
     calls = tuple(call for visit in deed for call in moved(visit, target) or ())
     if moved(old[0], target) is None or target in old[0].things:
         return None
     other = _reason(old[0].said, _names_of(old[0]), target)
-    other = other if other != old[0].said else f"take the {target.description}"
+    other = other if other != old[0].said else f"take {called(target.description)}"
     said = f"I do not {old[0].said}. Instead I {other}."
     return reordered(plan, deed, _behind(plan, deed), "instead", calls, said)
 
@@ -379,7 +381,7 @@ def _reason(reason: str, names: set[str], target: MapObject) -> str:
     low = reason.lower()
     hit = next((known for known in sorted(names, key=len, reverse=True) if known in low), None)
     if hit is None:
-        return f"go to the {target.description}" if reason.startswith("go to") else reason
+        return f"go to {called(target.description)}" if reason.startswith("go to") else reason
     at = low.index(hit)
     return reason[:at] + target.description + reason[at + len(hit) :]
 
@@ -394,7 +396,7 @@ def _put_in(plan: Sequence[Visit], wanted: Sequence[Named], text: str) -> Change
     if like is None or any(len(name.things) > 1 or name.things[0].id in planned for name in wanted):
         return None
     calls = tuple(call for name in wanted for call in moved(like, name.things[0]) or ())
-    names = " and ".join(f"the {name.things[0].description}" for name in wanted)
+    names = " and ".join(called(name.things[0].description) for name in wanted)
     if front:
         return reordered(plan, [], plan, "front", calls, f"First {names}, then on with the rest.")
     return Change((), calls, "end", said=f"I add {names}.")

@@ -17,6 +17,7 @@ from parley.language.dialogue.mentions import Named, named, same_kind
 from parley.language.dialogue.state import Order
 from parley.messages.status import PlanStep
 from parley.world.object_map import MapObject
+from parley.world.whereabouts import called
 
 __all__ = ["followed", "in_turn"]
 
@@ -88,7 +89,7 @@ def followed(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, la
         return None  # an order of its own
     if len(things) > 1 and not names:
         return Change(
-            question=f"Which other one: {listed([f'the {one.description}' for one in things], 'or')}?"
+            question=f"Which other one: {listed([called(one.description) for one in things], 'or')}?"
         )
     if not things or before in things:
         return None

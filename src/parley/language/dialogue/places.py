@@ -52,7 +52,7 @@ def lies(item: MapObject, objects: Sequence[MapObject], pose: Pose2D | None) -> 
     far_m = round(max(distance_m(item, pose), 1.0)) if pose is not None else 0
     parts = [f"about {far_m} metre{'s' if far_m > 1 else ''} from me"] if far_m else []
     parts += [f"in the {room}"] if room and room not in item.description.lower() else []
-    parts += [f"near the {near.description}"] if near is not None else []
+    parts += [f"near {called(near.description)}"] if near is not None else []
     return ", ".join(parts) or "on my map"
 
 
