@@ -10,7 +10,7 @@ from typing import Any, Final
 import rclpy
 import structlog
 from rclpy.context import Context
-from rclpy.exceptions import NameValidationException
+from rclpy.exceptions import InvalidHandle, NameValidationException
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.signals import SignalHandlerOptions
 
@@ -95,7 +95,9 @@ class Spinner:
                 self._executor.spin_once()
             except ExternalShutdownException:
                 return
+            except InvalidHandle:
+                continue  # an end that it was about to wait for has just been closed
             except Exception:
-                # The border of the thread: an end that was just closed, or a defect, must not end hearing.
+                # The border of the thread: a defect must not end hearing.
                 if not self._ending:
                     log.exception("ROS could not hand something over")
