@@ -151,7 +151,9 @@ def test_a_step_that_is_named_in_a_sentence_or_a_record_is_named_in_its_language
     text = sentence(template, step="go to the bed")
     for told in (text, str(text)):
         assert "„mine kohta bed“" in in_language(told, "et")
-    failed = {"step": {"Inspect": {"input_parameters": {"it": {"pvf_value": "box"}}, "reason": "look for the box"}}}
+    failed = {
+        "step": {"Inspect": {"input_parameters": {"it": {"pvf_value": "box"}}, "reason": "look for the box"}}
+    }
     assert shown_in("et", failed)["step"]["Inspect"] == {**failed["step"]["Inspect"], "reason": "otsi box"}
 
 

@@ -353,7 +353,7 @@ class PlanCommandPost(WebModel):
     index: Annotated[int, Field(ge=0, le=10_000)] | None = None
     """For `pop`: which pending step, from 0."""
     step: Annotated[str, Field(max_length=200)] = ""
-    """For `skip`: the step that was shown; of one that is over meanwhile nothing is skipped. Empty: whichever runs."""
+    """For `skip`: the step that was shown; none if that is over by then. Empty: whichever runs."""
 
 
 class MissionCommandPost(WebModel):

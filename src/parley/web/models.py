@@ -355,7 +355,8 @@ class RoundView(WebModel):
     ended_unix_ms: int = 0
     """0: it goes on, or its end was never heard."""
     state: RoundState
-    """`partly`: done but for `left`; `ended`: before it was done; `unrecorded`: it does not go on, and the log has no end of it."""
+    """`partly`: done but for `left`; `ended`: before it was done; `unrecorded`: the log has no end of it,
+    and it does not go on."""
     steps: tuple[str, ...] = ()
     left: tuple[str, ...] = ()
     """Those of them that were left out."""

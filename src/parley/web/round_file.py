@@ -20,7 +20,8 @@ _STYLE: Final = (
 )
 _STATES: Final = {
     "running": "It goes on.", "done": "It was done.", "partly": "It was done in part.",
-    "failed": "It was not got done.", "ended": "It was ended before it was done.", "unrecorded": "Its end was not recorded.",
+    "failed": "It was not got done.", "ended": "It was ended before it was done.",
+    "unrecorded": "Its end was not recorded.",
 }  # fmt: skip
 
 
