@@ -109,6 +109,9 @@ async def test_whoever_hears_that_all_shall_stop_all_do() -> None:
         await home.say("All robots stop now", "Spot")
         for robot in ROBOTS:
             await home.state("paused", robot)
+        going = await home.say("carry on, all of you", "Spot")
+        assert going.message.endswith("That lets nobody but me go on; Leo, TIAGo still stands.")
+        assert home.observer.state("Leo") == "paused"
 
 
 async def test_robots_are_counted_left_out_by_name_and_never_given_two_parts_at_once() -> None:

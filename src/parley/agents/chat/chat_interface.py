@@ -339,6 +339,11 @@ class ChatInterface(Node):
         """Whether "go on" answers a question; while the robot is paused it means to go on."""
         return question is not None and control == "start" and self._known.state(target) != "paused"
 
+    def _called_but_still(self, target: str, said: ChatInput) -> list[str]:
+        """Who else stands though all were called: "all" stops all, but each is let go on by itself."""
+        others = {*self._presence.called_in(said.message)} - {target, *said.targets}
+        return sorted(name for name in others if self._known.state(name) == "paused")
+
     def _offers_past(self, target: str, message: str) -> bool:
         """Whether "go on" means to leave what was seen as it is: a robot asks just that."""
         asked = self._questions.newest(target)
@@ -556,6 +561,9 @@ class ChatInterface(Node):
         reply = reply or texts.CONTROL_REPLIES[control]
         if control == "start" and state == "paused" and offered is not None:
             reply = together(sentence(reply), texts.STILL_ASKED)
+        if control == "start" and (still := self._called_but_still(target, said)):
+            alone = sentence("That lets nobody but me go on; {robots} still stands.", robots=", ".join(still))
+            reply = together(sentence(reply), alone)
         if more and len(said.message.split()) > _SHORT_WORDS:  # there may be an order in it
             reply = together(sentence(reply), texts.REST_LEFT)
         self._known.note(target, said.message, reply)
