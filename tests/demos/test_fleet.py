@@ -114,6 +114,24 @@ async def test_whoever_hears_that_all_shall_stop_all_do() -> None:
         assert home.observer.state("Leo") == "paused"
 
 
+async def test_who_calls_the_mission_off_drops_all_its_parts_and_nothing_else() -> None:
+    async with hall() as home:
+        await home.say("go to the dock", "Leo")
+        await told(home, "Check all three areas, split between you", *ROBOTS)
+        await home.say("cancel the mission", "Spot")
+        await home.observer.until(
+            lambda: any("not all of it is done" in said.message for said in home.observer.said),
+            timeout_s=PATIENCE_S,
+        )
+        open_yet = {
+            str(step.label)
+            for plan in home.observer.plans.values()
+            for step in plan.steps
+            if step.state not in ("stopped", "skipped", "finished") and not step.for_next
+        }
+        assert open_yet == {"Go to “charging dock”"}
+
+
 async def test_robots_are_counted_left_out_by_name_and_never_given_two_parts_at_once() -> None:
     async with hall() as home:
         await home.say("two of you go to the loading gate, the other one waits at the dock", "Spot")

@@ -137,6 +137,14 @@ class MissionBook:
                     return True
         return False
 
+    def beside(self, robot: str) -> list[MissionPart]:
+        """What others still do of the newest mission that a robot has a part of."""
+        for mission in reversed(self._missions.values()):
+            going = [part.info for part in mission.parts if part.info.state not in OVER]
+            if any(part.robot == robot for part in going):
+                return [part for part in going if part.robot != robot]
+        return []
+
     def refuse(self, order: str) -> None:
         """A part is not done at all."""
         for part in self._of(order):

@@ -65,6 +65,7 @@ from parley.world.object_map import MapObject
 
 __all__ = ["ChatInterface"]
 
+_MISSION: Final = "mission"
 _AGAIN: Final = {"again", "retry"}
 _SHORT_WORDS: Final = 3
 _HALTING: Final = ("stop", "clear", "emergency_stop")
@@ -339,6 +340,11 @@ class ChatInterface(Node):
         """Whether "go on" answers a question; while the robot is paused it means to go on."""
         return question is not None and control == "start" and self._known.state(target) != "paused"
 
+    def _call_off(self, target: str, control: Control, said: ChatInput) -> None:
+        """Drop the others' parts, too, where it is the mission that is to be dropped."""
+        if control == "clear" and _MISSION in said.message.lower():
+            self._board.call_off(target, said)
+
     def _called_but_still(self, target: str, said: ChatInput) -> list[str]:
         """Who else stands though all were called: "all" stops all, but each is let go on by itself."""
         others = {*self._presence.called_in(said.message)} - {target, *said.targets}
@@ -526,6 +532,7 @@ class ChatInterface(Node):
 
     def _control(self, target: str, control: Control, said: ChatInput, *, more: bool = False) -> None:
         """Act at once, ahead of anything that is still being understood."""
+        self._call_off(target, control, said)
         if control in _HALTING:
             self._halt(target)
             self._known.on_stop(target, said)

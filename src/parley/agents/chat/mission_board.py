@@ -8,7 +8,7 @@ from parley.agents.base import Node
 from parley.errors import StoreError
 from parley.memory.missions import MissionStore
 from parley.messages import topics
-from parley.messages.chat import ChatAction, ChatFeedback
+from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.status import PlanProposal, PlanUpdate
 from parley.messages.team import MissionInfo, MissionList, MissionPart
 from parley.sentences import Sentence
@@ -53,6 +53,15 @@ class MissionBoard:
         found = self._book.relieve(robot, others)
         self._show()
         return found
+
+    def call_off(self, robot: str, said: ChatInput) -> None:
+        """Drop what others still do of the mission that a robot has a part of, and nothing else of theirs."""
+        for part in self._book.beside(robot):
+            drop = SystemCommand(command="clear", arguments={"order": part.order})
+            order = ChatAction(
+                system_cmd=(drop,), targets=(part.robot,), by=said.who, words=said.message, reply_to=said.id
+            )
+            self._node.publish(topics.CHAT_ACTION, order)
 
     def refuse(self, order: str) -> None:
         """A part is not done at all."""
