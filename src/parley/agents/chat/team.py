@@ -110,7 +110,9 @@ class TeamTalk:
         plain = wish is None
         wish = wish or TeamWish("parts", (Part("all", said.message),))
         if wish.kind == "about":
-            return await self._asked(wish, said)
+            if (told := await self._asked(wish, said)) is not None:
+                return told
+            wish = TeamWish("parts", (Part("named" if wish.robot else "each", wish.about, wish.robot),))
         members = {
             name: status
             for name in team or self._presence.names()
@@ -128,15 +130,18 @@ class TeamTalk:
             return Mission(text=text, choices=spread)
         return await work.parts(wish, target)
 
-    async def _asked(self, wish: TeamWish, said: ChatInput) -> Mission:
-        """A question about another robot, answered by that one; or about all of them, by each."""
-
-        async def told(robot: str) -> Sentence:
-            answer = await self._language.interpret(await self._situation(robot, wish.about, said))
-            return sentence("{robot} says: “{answer}”", robot=robot, answer=answer.message_response)
-
+    async def _asked(self, wish: TeamWish, said: ChatInput) -> Mission | None:
+        """A question about one robot or all, answered by whom it is about; None: that takes deeds."""
         names = (wish.robot,) if wish.robot else self._presence.names()
-        return Mission(text=together(*await asyncio.gather(*map(told, names))))
+        situations = [await self._situation(robot, wish.about, said) for robot in names]
+        answers = await asyncio.gather(*map(self._language.interpret, situations))
+        if any(answer.queue for answer in answers):
+            return None
+        told = [
+            sentence("{robot} says: “{answer}”", robot=robot, answer=answer.message_response)
+            for robot, answer in zip(names, answers, strict=True)
+        ]
+        return Mission(text=together(*told))
 
     async def _situation(self, robot: str, words: str, said: ChatInput) -> Situation:
         found = await self._known.of(robot, words, said, sees_pictures=False, proposal=self._offered(robot))
