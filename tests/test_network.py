@@ -17,7 +17,7 @@ from parley.cli.robot import EMPTY_FLOOR
 from parley.clock import WallClock
 from parley.config import NetworkSettings, SystemConfig
 from parley.demos.observer import Observer
-from parley.errors import ConfigError
+from parley.errors import ConfigError, UnavailableError
 from parley.messages import topics
 from parley.messages.principal import person
 from parley.messages.ros import ChatRequest, ChatResponse
@@ -25,11 +25,14 @@ from parley.messages.status import ActorStatus, StopCommand
 from parley.messages.wire import to_string
 from parley.network import transport_of
 from parley.network_check import examine_network
+from parley.robots.base import Velocity
+from parley.robots.own import RobotBase
 from parley.sim.world_file import WorldFile
 from parley.system import System
 from parley.transport.local import LocalTransport
 from parley.web.backend import Backend
 from parley.web.config import WebConfig
+from parley.world.geometry import Pose2D
 from tests.transport.backends import free_port, until
 
 
@@ -105,6 +108,36 @@ async def test_a_release_that_is_pressed_while_the_robot_is_out_of_reach_arrives
         await stack.enter_async_context(transport_of(SystemConfig(network=between)))
         await until(lambda: not robots.stop_line.latched("Kim"), within_s=20)
         await until(lambda: views["Kim"].stop.state == "none")
+
+
+class Cart(RobotBase):
+    """One that knows whether anybody has opened it."""
+
+    opened = False
+
+    async def open(self) -> None:
+        self.opened = True
+
+    def pose(self) -> Pose2D:
+        return Pose2D(1.0, 1.0)
+
+    def velocity(self) -> Velocity:
+        return Velocity()
+
+    def send(self, velocity: Velocity) -> None: ...
+
+
+async def test_a_robot_that_another_engine_drives_is_not_touched() -> None:
+    first, second = Cart("Kim"), Cart("Kim")
+    async with LocalTransport() as transport:
+        one, other = (
+            System(None, SystemConfig(), robots=[cart], part="robots", transport=transport)
+            for cart in (first, second)
+        )
+        async with one:
+            with pytest.raises(UnavailableError, match="already"):
+                await other.__aenter__()
+            assert (first.opened, second.opened) == (True, False)
 
 
 async def test_the_doctor_says_who_is_there_which_address_is_silent_and_whose_clock_is_wrong() -> None:

@@ -207,7 +207,14 @@ class Engines(OpenedTogether):
         await enter(self._notifier)
         self.found = await asyncio.to_thread(FoundThings, config.found_file)
         file = config.journal_file or ":memory:"
-        self.journal = await enter(await Journal.open(file, clock, tell=self.tell))
+        journal = self.journal = await enter(await Journal.open(file, clock, tell=self.tell))
+        unfinished = {
+            name: Unfinished(name, [was for was in journal.interrupted if was.actor == name])
+            for name in self.names
+        }
+        for claim in unfinished.values():  # before a robot is touched: another engine may drive it
+            stack.push_async_callback(claim.close)
+            await claim.open(self._transport)
         await enter(self._fleet)
         for problem in self._problems:
             self._tell_unusable(problem)
@@ -224,10 +231,10 @@ class Engines(OpenedTogether):
         heard = await self._transport.subscribe(topics.PLACES_KEPT, self._on_places, depth=1)
         stack.push_async_callback(heard.close)
         self.tell_sites()
-        stack.push_async_callback((await self.journal.heed_plans(self._transport)).close)
+        stack.push_async_callback((await journal.heed_plans(self._transport)).close)
         for name in self.names:
-            await self._open_robot(stack, name, self.journal, mates)
-        stack.push_async_callback(self.journal.end)
+            await self._open_robot(stack, name, journal, mates, unfinished[name])
+        stack.push_async_callback(journal.end)
         stack.callback(self._engines.clear)
         stack.callback(self._transport.on_endpoints_changed(self._greet))
 
@@ -265,7 +272,9 @@ class Engines(OpenedTogether):
         )
         self._sites[name] = (site, topics.actor_site(name))
 
-    async def _open_robot(self, stack: AsyncExitStack, name: str, journal: Journal, mates: Mates) -> None:
+    async def _open_robot(
+        self, stack: AsyncExitStack, name: str, journal: Journal, mates: Mates, unfinished: Unfinished
+    ) -> None:
         enter, transport, clock = stack.enter_async_context, self._transport, self._fleet.clock
         view = WorldView(self, name, self._fleet.occupancy(name))
         rules = RuleBook.unread(clock)
@@ -275,9 +284,6 @@ class Engines(OpenedTogether):
         turn = Turn(robot, lambda: view.objects.areas, clock)
         hears = await transport.subscribe(topics.PASSAGES, partial(_hear, turn))
         stack.push_async_callback(hears.close)
-        unfinished = Unfinished(name, [was for was in journal.interrupted if was.actor == name])
-        await unfinished.open(transport)
-        stack.push_async_callback(unfinished.close)
 
         def make_context(run: RunHandle) -> ActionContext:
             return ActionContext(
