@@ -7,9 +7,11 @@ import subprocess
 import sys
 
 import pytest
+import typer
 from typer.testing import CliRunner
 
 from parley.cli import command_line, run
+from parley.errors import UnavailableError
 
 
 def loaded(*words: str, **environ: str) -> tuple[str, set[str]]:
@@ -94,3 +96,17 @@ def test_a_command_that_is_not_installed_says_how_to_get_it(
 def test_help_says_of_what_is_not_installed_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "mujoco", None)
     assert CliRunner().invoke(command_line(), ["--help"]).output.count("parley-hri[sim]") == 5
+
+
+def test_who_is_not_there_yet_is_told_apart_from_what_is_wrong(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(sys, "argv", ["parley"])
+    app = typer.Typer()
+
+    @app.command()
+    def reach() -> None:
+        raise UnavailableError("nobody answers at ws://robot:9090")
+
+    assert run(app) == 3
+    assert "nobody answers" in capsys.readouterr().err

@@ -221,3 +221,13 @@ async def test_a_reader_of_another_make_gets_each_message_once(monkeypatch: pyte
         await until(lambda: not rig.server.backend._unread)
         assert len(rig.robots.inputs) == 1
         assert len(page.of("chat")) == 1
+
+
+async def test_what_a_program_says_on_and_on_stands_there_once() -> None:
+    async with served("Ada") as rig:
+        for _ in range(3):
+            rig.robots.tell(topics.CHAT_INPUT, ChatInput(message="go home", targets=("Ada",)))
+        await rig.heard()
+        assert [entry["message"] for entry in (await rig.http.get("/api/chat")).json()["entries"]] == [
+            "go home"
+        ]

@@ -16,7 +16,7 @@ from typer.exceptions import TyperException
 
 from parley import __version__
 from parley.cli.output import fail
-from parley.errors import ParleyError
+from parley.errors import ParleyError, TransportError
 from parley.extras import needs
 
 __all__ = ["command", "command_line", "run"]
@@ -111,6 +111,8 @@ def run(app: typer.Typer) -> int:
         code = app(standalone_mode=False)
     except typer.Exit as leaving:
         code = leaving.exit_code
+    except TransportError as error:
+        return fail(str(error), code=3)
     except ParleyError as error:
         return fail(str(error))
     except TyperException as error:

@@ -10,6 +10,7 @@ from parley.language.control import control_of
 from parley.messages.attendance import Unattended
 from parley.messages.chat import ChatFeedback, ChatImage, ChatInput, ReplyDraft
 from parley.messages.principal import Principal
+from parley.messages.repeats import Repeats
 from parley.web.models import ChatEntry
 
 __all__ = ["KEPT_ENTRIES", "ChatBook", "Composed", "KeepPictures"]
@@ -54,6 +55,7 @@ class ChatBook:
         """Key of an open question -> its id on the wire, perhaps empty."""
         self._said_as: dict[str, str] = {}
         """Id of a message on the wire -> key of its entry, where they differ."""
+        self._repeats = Repeats()
 
     # -- what operators say ----------------------------------------------------------------------------
 
@@ -133,7 +135,7 @@ class ChatBook:
 
     def on_input(self, said: ChatInput, *, unix_ms: int) -> None:
         """A message on the wire: of another client, or the echo of our own."""
-        if said.id in self.entries or said.id in self._said_as:
+        if said.id in self.entries or said.id in self._said_as or self._repeats.count(said, unix_ms / 1000):
             return
         origin = said.id.partition("~")[0]
         if origin in self.entries:  # an answer that turned out to be something else, taken up as a request

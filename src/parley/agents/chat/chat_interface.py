@@ -21,7 +21,6 @@ from parley.agents.chat.mission_board import MissionBoard
 from parley.agents.chat.missions import Missions
 from parley.agents.chat.placing import Placing
 from parley.agents.chat.recollections import Recollections
-from parley.agents.chat.repeats import Repeats
 from parley.agents.chat.situations import Situations
 from parley.agents.chat.teaching import Teaching
 from parley.agents.chat.team import TeamTalk
@@ -47,6 +46,7 @@ from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, ChatRead, 
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.memory import AddToMemory, MemoryBody, MemoryEntry, MemoryEvent, RemoveMemory
 from parley.messages.principal import Principal
+from parley.messages.repeats import Repeats
 from parley.messages.status import (
     ActorStatus,
     GraphEvent,
@@ -127,7 +127,7 @@ class ChatInterface(Node):
         self._questions = self._known.questions
         self._mailboxes: Mailboxes[str] = Mailboxes(self._on_defect)
         self._offered, self._finishing = Offered(), Finishing(clock.now_s)
-        self._seen_ids, self._repeats = SeenIds(), Repeats(clock.wall_s)
+        self._seen_ids, self._repeats = SeenIds(), Repeats()
         self._holds = Holds(lambda command: self.publish(topics.STOP, command))
         self._confirmations = Confirmations()
         self._recollections = Recollections(self, clock, self._remember, self._presence.names)
@@ -236,7 +236,7 @@ class ChatInterface(Node):
         """Whether a program says the same on and on, which is told once; to stop counts every time."""
         if calls_to_stop(said.message) or control_of(said.message, self._presence.names()) in _HALTING:
             return False
-        count = self._repeats.count(said)
+        count = self._repeats.count(said, self._clock.wall_s())
         if count == 1:
             self._say(said.targets, texts.SAID_AGAIN, "info")
         return count > 0

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Final
 
 from parley.latest import Latest
@@ -15,21 +14,15 @@ WITHIN_S: Final = 2.5
 
 
 class Repeats:
-    """Recognises a message without an id by what it says; with one it is recognised by that.
+    """Recognises a message without an id by what it says; with one it is recognised by that."""
 
-    Args:
-        now_s: Wall time.
-    """
-
-    def __init__(self, now_s: Callable[[], float]) -> None:
-        self._now_s = now_s
+    def __init__(self) -> None:
         self._heard: Latest[ChatInput, tuple[float, int]] = Latest()
 
-    def count(self, said: ChatInput) -> int:
+    def count(self, said: ChatInput, now_s: float) -> int:
         """How often the same was said before this, each time soon after the last; 0: it is new."""
         if said.id:
             return 0
-        now_s = self._now_s()
         last_s, count = self._heard.get(said, (now_s - 2 * WITHIN_S, -1))
         count = count + 1 if now_s - last_s < WITHIN_S else 0
         self._heard[said] = (now_s, count)

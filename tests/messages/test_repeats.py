@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from parley.agents.chat.repeats import Repeats
 from parley.messages.chat import ChatInput
+from parley.messages.repeats import Repeats
 
 ORDER = ChatInput(message="go to the door", targets=("Kim",))
 
 
 def counts(*heard: tuple[float, ChatInput]) -> list[int]:
-    now_s = 0.0
-    repeats = Repeats(lambda: now_s)
-    found = []
-    for now_s, said in heard:  # noqa: B007 - the clock reads it
-        found.append(repeats.count(said))
-    return found
+    repeats = Repeats()
+    return [repeats.count(said, now_s) for now_s, said in heard]
 
 
 def test_what_comes_once_a_second_is_one_message_however_long_it_goes_on() -> None:
