@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from parley.errors import UnavailableError
+from parley.errors import ConfigError
 from parley.ros_check import PACKAGES, Sourced, need_ros
 
 SUFFIX = ".cpython-312-x86_64-linux-gnu.so"
@@ -74,7 +74,7 @@ def test_what_is_wrong_is_said_with_how_to_mend_it(
     assert (finding.subject, finding.state) == ("ROS 2", state)
     assert said in finding.text
     assert mend in finding.remedy
-    with pytest.raises(UnavailableError, match="ROS 2 cannot be used"):
+    with pytest.raises(ConfigError, match="ROS 2 cannot be used"):
         need_ros(here)
 
 

@@ -21,7 +21,7 @@ def transport_of(config: SystemConfig, *, node: str = "parley", release: str = "
 
     Raises:
         MissingExtraError: What the network needs is not installed.
-        UnavailableError: ROS is not sourced, or not for this Python.
+        ConfigError: ROS is not sourced, or not for this Python.
     """
     if config.network is None:
         return LocalTransport()

@@ -11,7 +11,7 @@ from importlib.machinery import PathFinder
 from pathlib import Path
 from typing import Final
 
-from parley.errors import UnavailableError
+from parley.errors import ConfigError
 from parley.findings import Finding
 
 __all__ = ["Sourced", "examine_ros", "need_ros"]
@@ -106,9 +106,9 @@ def need_ros(sourced: Sourced | None = None) -> None:
     """Say clearly that ROS cannot be used, and how to mend it.
 
     Raises:
-        UnavailableError: It cannot.
+        ConfigError: It cannot.
     """
     first = next(iter((sourced or Sourced()).findings()))
     if first.state != "ok":
         remedy = first.remedy or "Install ROS 2 (Jazzy or newer) and source its setup.bash."
-        raise UnavailableError(f"ROS 2 cannot be used: {first.text} {remedy}")
+        raise ConfigError(f"ROS 2 cannot be used: {first.text} {remedy}")
