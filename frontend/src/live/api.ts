@@ -141,7 +141,7 @@ export const sendReset = (targets: readonly string[], id: string) =>
 
 /** @param step The one that is meant by a skip, as it was shown: the plan may be another by now. */
 export const commandPlan = (robot: string, command: PlanCommand, step = '') =>
-  request<unknown>('POST', `plans/${part(robot)}/command`, { command, step });
+  request<unknown>('POST', `plans/${part(robot)}/command`, step ? { command, step } : { command });
 export const decidePlan = (robot: string, decision: Decision) =>
   request<unknown>('POST', `plans/${part(robot)}/decision`, decision);
 export type MissionCommand = 'pause' | 'resume' | 'clear' | 'approve' | 'reject';

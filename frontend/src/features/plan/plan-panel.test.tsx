@@ -92,7 +92,7 @@ describe('the plan', () => {
   });
 
   it.each([
-    ['Cancel all', { command: 'clear', step: '' }, '3 steps were cancelled.', [], ['Two', 'Three', 'Four']],
+    ['Cancel all', { command: 'clear' }, '3 steps were cancelled.', [], ['Two', 'Three', 'Four']],
     ['Skip', { command: 'skip', step: 'two' }, '“Two” is left out.', ['three', 'four'], ['Two', 'Three', 'Four']],
   ])('puts back what was lost by: %s', async (button, body, said, left, again) => {
     const user = show();
