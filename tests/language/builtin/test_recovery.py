@@ -84,7 +84,7 @@ async def test_another_place_may_be_named_where_the_way_is_closed(reply: str) ->
         ("forget the gate", True, 0),
         ("forget the printer", False, 0),
         ("purple", False, 0),
-        ("don't try that again", None, 0),
+        ("don't try that again", False, 0),
         ("I'll move it", None, 0),
         ("why?", None, 0),
         ("look again at the printer", None, 0),

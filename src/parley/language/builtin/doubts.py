@@ -12,7 +12,7 @@ from parley.language.builtin.wishes import Wish
 
 __all__ = ["AGREED", "ALONE", "doubt", "may_be_offered"]
 
-AGREED = 0.2
+AGREED = 0.1
 """So much the tagger must believe in the least certain part of a wish that the lexicon agrees with."""
 ALONE = 0.6
 """So much where the lexicon does not know the verb."""

@@ -129,7 +129,9 @@ class BuiltinLanguage:
         situation = replace(situation, objects=with_names(situation.objects, taught_in(situation.memory)))
         parts = self._parts(situation.message)
         if len(parts) > 1 and is_promised(situation.message, situation.catalogue):
-            parsed, reading = self._read(situation.message)
+            parsed, _ = self._read(situation.message)
+            parsed = replace(parsed, acts=("order",) * len(parsed.tokens))  # its maker's words for it
+            reading = read(parsed, self._lexicon)
             whole = Clause("main", 0, len(parsed.tokens), 0)  # "open the door to the yard" is one deed there
             parts = (Part(whole, parsed, reading, situation.message),)
         if self._skills is None or self._own is None:

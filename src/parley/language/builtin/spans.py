@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -104,7 +105,7 @@ def parse(tokens: tuple[Token, ...], scores: Scores) -> Parse:
     shares = tuple(float(min(scores.frame[at, frames[at]], scores.role[at, roles[at]])) for at in range(size))
     verbs = _verbs(frames, scores)
     moves = tuple(MOVE_TAGS[int(row.argmax())] for row in scores.move[:size])
-    return Parse(tokens, acts, verbs, _spans(roles, scores, verbs), shares, moves)
+    return Parse(tokens, acts, verbs, _spans(tokens, roles, scores, verbs), shares, moves)
 
 
 def _best(shares: Matrix, tags: tuple[str, ...]) -> list[int]:
@@ -159,10 +160,25 @@ def _verbs(path: list[int], scores: Scores) -> tuple[Verb, ...]:
     return tuple(verbs)
 
 
-def _spans(path: list[int], scores: Scores, verbs: tuple[Verb, ...]) -> tuple[Span, ...]:
-    spans = []
+_QUOTES = {"“": "”", '"': '"', "‘": "’", "«": "»"}
+
+
+def _quoted(tokens: Sequence[Token], start: int, end: int) -> int:
+    """Where words that are to be said end: what begins with a quotation mark ends with its other half."""
+    closing = _QUOTES.get(tokens[start].text)
+    found = (at + 1 for at in range(start + 1, len(tokens)) if tokens[at].text == closing)
+    return next(found, end) if closing else end
+
+
+def _spans(
+    tokens: Sequence[Token], path: list[int], scores: Scores, verbs: tuple[Verb, ...]
+) -> tuple[Span, ...]:
+    spans: list[Span] = []
     for role, start, end in _pieces(path, ROLE_TAGS):
+        if spans and start < spans[-1].end:
+            continue  # inside what is to be said
         share = float(min(scores.role[at, path[at]] for at in range(start, end)))
+        end = _quoted(tokens, start, end) if role == "X" else end
         head = start + int(scores.head[start:end, 1].argmax())
         ways = [float(scores.arcs[head, 0]), *(float(scores.arcs[head, verb.start + 1]) for verb in verbs)]
         best = int(np.argmax(ways))

@@ -165,7 +165,8 @@ def read_reply(question: str, reply: str, choices: Sequence[str], reading: Readi
         return ReplyReading("yes")
     if asks(reply, bare) or is_thinking(reply) or "alarm" in reading.acts or calls_to_stop(reply):
         return ReplyReading("aside")
-    if any(_is_sure(wish) for wish in reading.wishes) or ("need" in reading.acts and len(words) > _FEW):
+    needs = "need" in reading.acts and len(words) > _FEW and not begins_with_no(reply)  # but "no box here"
+    if any(_is_sure(wish) for wish in reading.wishes) or needs:
         return ReplyReading("aside")
     if begins_with_no(reply) or _NOT & set(words[:3]):
         return ReplyReading("no")

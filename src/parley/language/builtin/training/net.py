@@ -11,7 +11,7 @@ from torch import Tensor, nn
 
 from parley.language.builtin.labels import DESCRIBED, HEADS
 
-__all__ = ["WIDTH", "Tagger", "load_base"]
+__all__ = ["WIDTH", "Tagger", "load_base", "load_shipped"]
 
 WIDTH = 384
 _LAYERS = 6
@@ -92,6 +92,28 @@ def load_base(model: Tagger, weights: bytes) -> None:
         for number, layer in enumerate(model.layers):
             for part, name in _PARTS.items():
                 _copy(getattr(layer, part), tensor, f"encoder.layer.{number}.{name}")
+
+
+def load_shipped(model: Tagger, weights: bytes) -> None:
+    """Put the weights of a tagger.onnx, as far as its bytes tell, into a model that has the base model's."""
+    import onnx
+
+    graph = onnx.load_model_from_string(weights).graph
+    values = {one.name: onnx.numpy_helper.to_array(one) for one in graph.initializer}
+    own = dict(model.named_parameters())
+    with torch.no_grad():
+        for name, parameter in own.items():
+            if name in values:
+                parameter.copy_(torch.from_numpy(values[name].copy()))
+        for node in graph.node:
+            if node.op_type == "MatMulInteger":
+                stem = node.input[1].removesuffix("_quantized")
+                whole = values[node.input[1]].astype("float32") - values[f"{stem}_zero_point"].astype(
+                    "float32"
+                )
+                name = node.name.strip("/").split("/MatMul")[0].split("/Gemm")[0].replace("/", ".")
+                name = f"heads.{name}" if name in HEADS else name
+                own[f"{name}.weight"].copy_(torch.from_numpy((whole * values[f"{stem}_scale"]).T.copy()))
 
 
 _PARTS = {
