@@ -91,7 +91,7 @@ describe('the plan', () => {
     expect(screen.queryByText('Go to')).toBeNull();
   });
 
-  it.each([
+  it.each<[string, object, string, string[], string[]]>([
     ['Cancel all', { command: 'clear' }, '3 steps were cancelled.', [], ['Two', 'Three', 'Four']],
     ['Skip', { command: 'skip', step: 'two' }, '“Two” is left out.', ['three', 'four'], ['Two', 'Three', 'Four']],
   ])('puts back what was lost by: %s', async (button, body, said, left, again) => {
