@@ -224,4 +224,4 @@ async def test_people_are_told_when_pictures_were_lost_before_they_could_be_show
         screen.send("", name=f"camera {number}")
     await until(lambda: len(said) > 0)
     screen.send("", name="the last")
-    await until(lambda: any("I lost 256 messages" in text.data for text in said))
+    await until(lambda: any("was away: 256." in text.data for text in said))

@@ -343,7 +343,7 @@ class Grounder:
 
     def _is_whole_name(self, filler: Filler) -> bool:
         """Whether a role is the name of one thing of the map, word for word; its parts alone may be none."""
-        said = stems(filler.words)
+        said = stems(filler.words[filler.words[0] == "the" :])
         return sum(said == stems(item.description.split()) for item in self.situation.objects) == 1
 
     def is_called(self, filler: Filler) -> bool:
