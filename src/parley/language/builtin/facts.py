@@ -77,6 +77,7 @@ def _moved(found: list[Told], wish: Wish, reading: Reading) -> list[Told]:
 
 _GONE = re.compile(r"n['’]t\b|\b(?:not|no longer|never|left)\b")
 _END = re.compile(r"[.,;:!?]|\b(?:and|but|so|because|or|then|please)\b|$", re.IGNORECASE)
+_LINKED = re.compile(r"that\s+", re.IGNORECASE)
 _LEADING_IN = frozenset(
     {"remember", "note", "mind", "think", "believe", "guess", "yes", "no", "and", "but", "or"}
 )
@@ -89,6 +90,8 @@ def _whole(message: str, start: int, end: int, lexicon: Lexicon) -> str:
         if word != "i" and word in lexicon.classes["small"] | lexicon.classes["asking"] | _LEADING_IN:
             break
         start = before.start(1)
+    if linked := _LINKED.match(message[start:]):
+        start += linked.end() if before is not None and before[1].lower() in _LEADING_IN else 0
     stop = _END.search(message, len(message[:end].rstrip()))
     text = message[start : stop.start()] if stop is not None else message[start:]
     return text.strip().rstrip(".,;!?").removesuffix(" and").strip()
