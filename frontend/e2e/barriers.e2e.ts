@@ -130,6 +130,7 @@ describe.skipIf(!hasBrowser)('nobody meets a barrier', () => {
   }, 600_000);
 
   it.each(Object.keys(sizes) as (keyof typeof sizes)[])('in any box, in the size %s', async (size) => {
+    await post(stage, 'plans/David/command', { command: 'clear' }); // nothing is asked beside the box
     const found: string[] = [];
     for (const [look, language] of faces) {
       const page = await dressed(stage, size, look, language);
