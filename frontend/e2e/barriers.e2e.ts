@@ -130,7 +130,6 @@ describe.skipIf(!hasBrowser)('nobody meets a barrier', () => {
   }, 600_000);
 
   it.each(Object.keys(sizes) as (keyof typeof sizes)[])('in any box, in the size %s', async (size) => {
-    await post(stage, 'plans/David/command', { command: 'clear' }); // nothing is asked beside the box
     const found: string[] = [];
     for (const [look, language] of faces) {
       const page = await dressed(stage, size, look, language);
@@ -182,9 +181,6 @@ async function boxes(stage: Stage, page: Page, words: Words, findings: Findings)
   await findings.look('remember something', box);
   await close();
   await go(stage, page, 'display');
-  await page.getByRole('button', { name: words('display', 'choose') }).click();
-  await findings.look('choosing pictures', box);
-  await close();
   await page.getByRole('img').first().click();
   await findings.look('a large picture', box);
   await close();
