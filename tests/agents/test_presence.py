@@ -7,7 +7,7 @@ import pytest
 from parley.agents.presence import LOST_AFTER_S, STARVED_AFTER_S, Presence, linked_to
 from parley.clock import WallClock
 from parley.messages import ros, topics
-from parley.messages.status import ActorStatus
+from parley.messages.status import ActorStatus, StopReport
 from parley.transport.local import LocalTransport
 
 
@@ -175,3 +175,15 @@ def test_robots_are_named_by_whole_words(clock: ManualClock, message: str, named
     presence = Presence(clock)
     beat(presence, "A", "Ruth")
     assert presence.named_in(message) == named
+
+
+@pytest.mark.parametrize(("graphs", "then"), [({"g": "PAUSED"}, "paused"), ({}, "idle")])
+def test_released_robot_is_no_longer_taken_for_a_stopped_one(
+    clock: ManualClock, graphs: dict[str, str], then: str
+) -> None:
+    presence = Presence(clock)
+    presence.on_status(ActorStatus(actor="A", state="stopped", graphs=graphs))
+    for report in ("at_rest", "reset"):
+        presence.on_stop_report(StopReport.model_validate({"actor": "A", "state": report}))
+    status = presence.get("A")
+    assert status is not None and status.state == then

@@ -1,7 +1,7 @@
 """A server that is killed at a chosen moment; robots' side writes down what it hears.
 
-Run as ``python -m tests.web.killed_server FOLDER MOMENT``: `never`, `kept` (as soon as a message is stored)
-or `heard` (as soon as a robot got one). The kill is a real one, of this process by itself.
+Run as ``python -m tests.web.killed_server FOLDER MOMENT``: `never`, `kept` (a message is stored, and
+goes out now) or `heard` (as soon as a robot got one). The kill is a real one, of this process by itself.
 """
 
 from __future__ import annotations
@@ -9,14 +9,13 @@ from __future__ import annotations
 import asyncio
 import os
 import signal
-import sqlite3
 import sys
-import threading
-import time
 from pathlib import Path
 
 from parley.messages import topics
 from parley.messages.ros import String
+from parley.messages.topics import Topic
+from parley.transport.base import M, Publisher
 from parley.transport.local import LocalTransport
 from parley.web.config import WebConfig
 from parley.web.server import WebServer
@@ -26,12 +25,21 @@ def die() -> None:
     os.kill(os.getpid(), signal.SIGKILL)
 
 
-def die_when_kept(file: Path) -> None:
-    """Another eye on the store: the moment a message is durable, all ends."""
-    store = sqlite3.connect(f"file:{file}?mode=ro", uri=True)
-    while not store.execute("SELECT 1 FROM outbox").fetchone():
-        time.sleep(0.0005)
-    die()
+class DiesBeforeSending(LocalTransport):
+    """What goes to robots is in the store, and goes out as soon as it is."""
+
+    def publisher(self, topic: Topic[M]) -> Publisher[M]:
+        return Dying() if topic.name == topics.CHAT_INPUT.name else super().publisher(topic)
+
+
+class Dying:
+    """An end that nothing leaves."""
+
+    def publish(self, message: object) -> None:
+        die()
+
+    def close(self) -> None:
+        pass
 
 
 async def main(folder: Path, moment: str) -> None:
@@ -44,11 +52,9 @@ async def main(folder: Path, moment: str) -> None:
             if moment == "heard":
                 die()
 
-        async with LocalTransport() as transport:
+        async with (DiesBeforeSending if moment == "kept" else LocalTransport)() as transport:
             await transport.subscribe(topics.CHAT_INPUT, hear, depth=1000)
             async with WebServer(transport, WebConfig(port=0, data_dir=folder)) as server:
-                if moment == "kept":
-                    threading.Thread(target=die_when_kept, args=[folder / "web.db"], daemon=True).start()
                 sys.stdout.write(server.url + "\n")
                 sys.stdout.flush()
                 await asyncio.Event().wait()

@@ -12,7 +12,7 @@ from parley.language.control import Control
 from parley.language.stop_words import called
 from parley.messages import topics
 from parley.messages.plain import named_in
-from parley.messages.status import ActorStatus
+from parley.messages.status import ActorStatus, StopReport
 from parley.sentences import sentence
 from parley.transport.base import Transport
 
@@ -75,6 +75,13 @@ class Presence:
         self._left.discard(status.actor)
         if joined and self._on_change is not None:
             self._on_change(status.actor, True)
+
+    def on_stop_report(self, report: StopReport) -> None:
+        """A stop was released: nobody is told to release it again before the next heartbeat says so."""
+        seen = self._seen.get(report.actor)
+        if report.state == "reset" and seen is not None and seen.status.state == "stopped":
+            state = "paused" if "PAUSED" in seen.status.graphs.values() else "idle"
+            self._seen[report.actor] = _Seen(seen.status.model_copy(update={"state": state}), seen.at_s)
 
     def expire(self, *, late_s: float = 0.0) -> None:
         """Forget who was silent for too long; called now and then.

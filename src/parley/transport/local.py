@@ -10,7 +10,7 @@ from typing import Any, Generic, Self, TypeVar
 from parley.messages.actions import Action
 from parley.messages.topics import Service, Topic
 from parley.transport.actions import CallingActionClient
-from parley.transport.base import Endpoint, Handler, Subscription, absolute
+from parley.transport.base import Endpoint, Handler, Publisher, Subscription, absolute
 from parley.transport.inbox import Inbox, being_cancelled
 from parley.transport.refusals import (
     answered_already,
@@ -98,7 +98,7 @@ class LocalTransport:
         self._latched.clear()
         self._types.clear()
 
-    def publisher(self, topic: Topic[M]) -> _LocalPublisher[M]:
+    def publisher(self, topic: Topic[M]) -> Publisher[M]:
         """See `Transport.publisher`."""
         self._check_type(topic.name, topic.ros_type)
         publisher = _LocalPublisher(self, topic)

@@ -57,6 +57,7 @@ from parley.messages.status import (
     Rejection,
     RejectionProblem,
     StopCommand,
+    StopReport,
 )
 from parley.sentences import sentence, together
 from parley.team.outlook import Survey
@@ -157,6 +158,7 @@ class ChatInterface(Node):
         """See `Node.open`."""
         await self.opened.enter_async_context(self._mailboxes)
         await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._presence.on_status)
+        await self.subscribe(topics.STOP_REPORT, StopReport, self._presence.on_stop_report)
         await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._on_said)
         await self.subscribe(topics.MEMORY_EVENT, MemoryEvent, self._confirmations.on_event)
         await self.subscribe(topics.STOP, StopCommand, self._on_emergency)
