@@ -181,6 +181,9 @@ async function boxes(stage: Stage, page: Page, words: Words, findings: Findings)
   await findings.look('remember something', box);
   await close();
   await go(stage, page, 'display');
+  await page.getByRole('button', { name: words('display', 'choose') }).click();
+  await findings.look('choosing pictures', box);
+  await close();
   await page.getByRole('img').first().click();
   await findings.look('a large picture', box);
   await close();

@@ -38,3 +38,13 @@ it('takes a double press for one where something else has come under the finger'
   expect(said.mock.calls).toEqual([[1], ['nearer'], ['nearer'], ['nearer']]);
   vi.restoreAllMocks();
 });
+
+it('takes two presses with a key between them for two', async () => {
+  said.mockClear();
+  render(<Asking />);
+  const user = userEvent.setup();
+  await user.click(screen.getByRole('button', { name: 'Answer 1' }));
+  await user.keyboard('{Escape}');
+  await user.click(screen.getByRole('button', { name: 'Answer 2' }));
+  expect(said.mock.calls).toEqual([[1], [2]]);
+});

@@ -34,8 +34,13 @@ export function useDoublePress(): void {
       event.stopImmediatePropagation();
       event.preventDefault();
     };
+    const isOver = () => (last = null); // who has pressed a key between two presses means both
+    document.addEventListener('keydown', isOver, true);
     for (const kind of PARTS) document.addEventListener(kind, swallow, true);
-    return () => PARTS.forEach((kind) => document.removeEventListener(kind, swallow, true));
+    return () => {
+      document.removeEventListener('keydown', isOver, true);
+      PARTS.forEach((kind) => document.removeEventListener(kind, swallow, true));
+    };
   }, []);
 }
 

@@ -17,10 +17,10 @@ from parley.cli.choosing import ConfigOption, KeyFileOption, LanguageOption, cho
 from parley.cli.on_loop import interruptible, on_loop
 from parley.cli.output import quiet_logs
 from parley.errors import ConfigError
+from parley.evaluation.situations import Explains, interpret_lines
+from parley.evaluation.situations import schema as schema_of_lines
 from parley.language.base import Language
 from parley.language.llm import build_language
-from parley.language.situations import Explains, interpret_lines
-from parley.language.situations import schema as schema_of_lines
 from parley.umrf.catalogue import Catalogue
 
 __all__ = ["command"]

@@ -11,6 +11,7 @@ import typer
 from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.cli.output import emit_json
 from parley.errors import ConfigError
+from parley.evaluation.situations import read_situation
 from parley.files import parse_json, read_text
 from parley.language.base import ErrorSituation, Situation
 from parley.language.llm.forms import Known, form_of
@@ -25,7 +26,6 @@ from parley.language.prompts import (
     compose_resolve,
     compose_selection,
 )
-from parley.language.situations import read_situation
 from parley.umrf.catalogue import Catalogue
 
 __all__ = ["app"]

@@ -18,10 +18,10 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from parley.errors import FileFormatError
 from parley.evaluation.catalogues import CATALOGUES
+from parley.evaluation.situations import read_situation
 from parley.evaluation.steps import write_calls
 from parley.files import TextFile, parse_yaml, validated
 from parley.language.base import ErrorSituation, Situation
-from parley.language.situations import read_situation
 from parley.messages.status import ActionInfo
 
 __all__ = ["Case", "CaseBody", "CaseSet", "Expected", "World"]

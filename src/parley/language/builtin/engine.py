@@ -95,7 +95,7 @@ class BuiltinLanguage:
         return chat.model_copy(update={"message_response": text})
 
     def explain(self, situation: Situation) -> tuple[ChatAction, list[dict[str, str]]]:
-        """See `parley.language.situations.Explains`."""
+        """See `parley.evaluation.situations.Explains`."""
         decision = self.decide(situation)
         told = explained(self._parts(situation.message), decision) if situation.message.strip() else []
         return self._addressed(to_chat(decision, self._lexicon), situation), told

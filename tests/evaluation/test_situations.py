@@ -10,9 +10,9 @@ import pytest
 
 from parley.errors import FailureCode, InvalidMessageError
 from parley.evaluation.catalogues import CATALOGUES
+from parley.evaluation.situations import interpret_lines, read_situation, schema
 from parley.language.base import DraftHandler, ErrorSituation, Situation
 from parley.language.builtin.engine import BuiltinLanguage
-from parley.language.situations import interpret_lines, read_situation, schema
 from parley.messages.chat import ChatAction
 from parley.messages.pvf import read_parameters
 
