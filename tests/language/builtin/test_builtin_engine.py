@@ -215,6 +215,9 @@ async def test_an_open_engine_has_loaded_what_its_first_message_needs() -> None:
         ("find me the red box", [("FIND", ["red box"])]),
         ("turn left by about 45 degrees", [("TURN", ["45 degrees", "left"])]),
         ("pick up the bottle of glue", [("TAKE", ["bottle"])]),
+        ("I am really tired go to the desk", [("GO", ["desk"])]),
+        ("go to the glue desk", [("GO", ["desk"])]),
+        ("I am not at the desk go to the office", []),
     ],
 )
 def test_what_people_put_around_an_order_changes_nothing_of_it(

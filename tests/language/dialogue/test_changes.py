@@ -257,3 +257,39 @@ async def test_going_on_with_less_changes_the_plan_and_leaves_going_on_to_its_ow
 async def test_what_is_to_be_done_before_going_on_comes_before_the_rest(message: str) -> None:
     answer = await ENGINE.interpret(given(message, "box", "gate"))
     assert goals(answer) == ["lamp", "box", "gate"], answer.message_response
+
+
+LOOK = ActionInfo(
+    name="Look", description="Look for something.", inputs={"what": "string"}, effects=("looks",)
+)
+GRASP = ActionInfo(name="Grasp", description="Pick up.", inputs={"what": "string"}, effects=("grasps",))
+
+
+def doing(name: str, what: str) -> ActionCall:
+    given = {"input_parameters": {"what": {"pvf_type": "string", "pvf_value": what}}}
+    return ActionCall.model_validate({name: given})
+
+
+@pytest.mark.parametrize(
+    ("deeds", "stays"),
+    [
+        (("Look", "Grasp"), []),  # it is brought to the gate: without it there is nothing to bring
+        (("Look",), ["gate"]),
+        ((), ["gate"]),
+    ],
+)
+async def test_what_was_to_be_done_there_is_not_done_elsewhere(
+    deeds: tuple[str, ...], stays: list[str]
+) -> None:
+    plain = given("no wait, go to the desk", "box", "gate")
+    there = [PlanStep(action=doing(name, "crown"), label=f"{name} at the crown") for name in deeds]
+    plan = (*plain.dialogue.steps[:2], *there, *plain.dialogue.steps[2:])
+    waits = tuple(step.action for step in plan if step.state != "finished")
+    asked = replace(
+        plain, catalogue=(FIND, GO, LOOK, GRASP), queue=waits, dialogue=replace(plain.dialogue, steps=plan)
+    )
+    answer = await ENGINE.interpret(asked)
+    assert [call.name for call in answer.queue if call.name in deeds] == []
+    assert goals(answer) == ["desk", *stays]
+    all_go = any(command.command == "clear" for command in answer.system_cmd)
+    assert all_go or dropped(answer) >= {*range(1 + len(deeds))}

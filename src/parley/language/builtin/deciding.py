@@ -197,6 +197,9 @@ def _dropped(parts: Sequence[Part], deeds: Sequence[Deed], builder: Builder) -> 
             before = [word for word in words[:start] if word not in idle]
             anchors = {*before[-3:]} & _ANCHORS or {*before[-4:]} & _PICKING
             called_alike = sum(start == other for other, _ in found) > 1
+            behind = start + len(thing.description.split())
+            one_thing = words[start - 1 : start] == ["the"] and any(behind == other for other, _ in found)
+            called_alike |= one_thing  # the coffee of "the coffee table"
             if anchors or called_alike or start in verbs or part.parse.acts[start] != "order":
                 continue
             refused = any(thing.description in one for _, one in builder.refused)

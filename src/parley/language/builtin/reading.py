@@ -325,6 +325,23 @@ def _leading(parse: Parse, verb: Verb, lexicon: Lexicon) -> set[int]:
     return found
 
 
+_STATES_OF_ONES_OWN = 3
+"""So many words at most say how the speaker is."""
+
+
+def _own_state(parse: Parse, lexicon: Lexicon) -> set[int]:
+    """The words of "I am tired" and "we are really cold" before an order: nothing is wished by them."""
+    low = [token.low for token in parse.tokens]
+    first = next((verb.start for verb in parse.verbs if parse.acts[verb.start] == "order"), 0)
+    for at in range(first - 2):
+        said = low[at + 2 : first]
+        own = low[at] in ("i", "we") and low[at + 1] in ("am", "'m", "’m", "are", "'re", "’re", "feel")
+        bound = any({*said} & lexicon.classes[one] for one in ("logic", "mental", "clock", "prepositions"))
+        if own and len(said) <= _STATES_OF_ONES_OWN and not bound and (not at or low[at - 1] in _BREAKS):
+            return {*range(at, first)}
+    return set()
+
+
 def _left_over(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
     taken: set[int] = set()
     for verb in parse.verbs:
@@ -333,6 +350,7 @@ def _left_over(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
         taken |= _leading(parse, verb, lexicon)
     for span in parse.spans:
         taken |= set(range(span.start, span.end))
+    taken |= _own_state(parse, lexicon)
     low = [token.low for token in parse.tokens]
     starts = {span.start for span in parse.spans}
     small = lexicon.classes["small"]

@@ -221,7 +221,7 @@ def change_of(
     if _FRONT.search(text) is not None and _INSTEAD.search(text) is None:
         takes_back = False
     if orders:
-        return _with_order(plan, against, text, takes_back=takes_back)
+        return _with_order(situation, plan, against, text, takes_back=takes_back)
     if not _is_bare(tokens, names, lexicon):
         return None
     if against and not for_:
@@ -242,7 +242,7 @@ def _is_bare(tokens: Sequence[Token], names: Sequence[Named], lexicon: Lexicon) 
 
 
 def _with_order(
-    plan: Sequence[Visit], against: Sequence[Named], text: str, *, takes_back: bool
+    situation: Situation, plan: Sequence[Visit], against: Sequence[Named], text: str, *, takes_back: bool
 ) -> Change | None:
     """What an order takes the place of: what it names, what runs, or nothing."""
     old = [visit for name in against for visit in _meant(plan, name)]
@@ -252,9 +252,41 @@ def _with_order(
         old = list(plan) if _ALL.search(text) is not None else _deed_of(plan, plan[0])
     if not old:
         return None
+    meant, old = old, _with_what_depends(plan, old, situation, runs=not against)
     whole = len(old) == len(plan) > 1
-    said = "I drop the rest of my plan." if whole else _dropping(old).said
+    more = " What belongs to it is left out, too." if len(old) > len(meant) else ""
+    said = "I drop the rest of my plan." if whole else f"{_dropping(meant).said}{more}"
     return replace(reordered(plan, old, _behind(plan, old), "instead", said=said), clears=whole)
+
+
+def _with_what_depends(
+    plan: Sequence[Visit], old: Sequence[Visit], situation: Situation, *, runs: bool
+) -> list[Visit]:
+    """Also what was to be done where it does not go any more, and the way on with what it gets there.
+
+    Args:
+        plan: What is still to be done.
+        old: What is left out of it.
+        situation: Its catalogue says what actions do.
+        runs: Whether it is what runs: nothing of what is done here is done elsewhere.
+    """
+    effects = {info.name: {*info.effects} for info in situation.catalogue}
+
+    def does(visit: Visit, *wanted: str) -> bool:
+        return any(effects.get(call.name, set()) & {*wanted} for call in visit.calls)
+
+    found: list[Visit] = []
+    there, gets = False, False
+    for visit in plan:
+        moves = does(visit, "moves", "follows")
+        if moves:
+            there, gets = visit in old or gets, False
+        elif visit in old and runs:
+            there = True
+        if there or visit in old:
+            found.append(visit)
+            gets = gets or does(visit, "grasps", "asks_operator")
+    return found
 
 
 def before_all(situation: Situation) -> Change:
