@@ -218,6 +218,8 @@ async def test_an_open_engine_has_loaded_what_its_first_message_needs() -> None:
         ("I am really tired go to the desk", [("GO", ["desk"])]),
         ("go to the glue desk", [("GO", ["desk"])]),
         ("I am not at the desk go to the office", []),
+        ("go past the desk to the office", [("GO", ["office"])]),
+        ("go through the office to the desk by the lamp", [("GO", ["desk"])]),
     ],
 )
 def test_what_people_put_around_an_order_changes_nothing_of_it(

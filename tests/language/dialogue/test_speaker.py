@@ -99,3 +99,20 @@ async def test_them_are_several_things_or_asked_about(before: str, things: list[
     history = (Turn("operator", before), Turn("assistant", "All right."))
     made = await answer("look at them", history)
     assert places(made) == things, made.message_response
+
+
+@pytest.mark.parametrize(
+    ("message", "goes"),
+    [
+        ("I'm at the gate, come to me", ["gate"]),
+        ("I am near the red desk. Come here.", ["red desk"]),
+        ("the gate is open, I'm at the gate, if it rains come to me", []),
+    ],
+)
+async def test_who_says_where_they_are_and_calls_is_come_to(message: str, goes: list[str]) -> None:
+    made = await answer(message)
+    if goes:
+        assert places(made) == goes
+        assert kept(made)[0].endswith(f"the {goes[0]}")
+    else:
+        assert made.queue == ()

@@ -27,7 +27,7 @@ from parley.language.control import control_of
 from parley.language.dialogue import policy
 from parley.language.dialogue.facts import is_report
 from parley.language.dialogue.mentions import named
-from parley.language.dialogue.speaker import Again
+from parley.language.dialogue.speaker import Again, name_of
 from parley.messages.memory import MemoryEntry
 
 __all__ = ["decide"]
@@ -75,9 +75,26 @@ def decide(
     made = policy.afterwards(made, situation, whole, tokens, lexicon)
     if isinstance(made, Ask) and not (made.offer or made.choices or situation.queue or situation.question):
         made = _offered(made, situation, tokens, skills, lexicon)
-    if isinstance(made, Ask) and "told" in whole.acts and not made.alarms:
-        return replace(made, told=policy.no_facts(_beside(situation.message, again), situation, beside=True))
+    tells = "told" in whole.acts or _I_AM.search(situation.message) is not None
+    missed = isinstance(made, Do) and any("operator" in deed.arguments.values() for deed in made.deeds)
+    if tells and (missed or (isinstance(made, Ask) and not made.alarms)):
+        told = policy.no_facts(_beside(situation.message, again), situation, beside=True)
+        made = _for_who_is_there(situation, told, again) or made
+        return replace(made, told=told) if isinstance(made, Ask) else made
     return made
+
+
+def _for_who_is_there(situation: Situation, told: tuple[Told, ...], again: Again) -> Do | None:
+    """The order of a message that else only says where the speaker is: "I'm at the desk, come here"."""
+    entries = [MemoryEntry(name=fact.name, data=fact.text) for fact in told]
+    if not told or any(name_of(situation).lower() not in fact.text.lower() for fact in told):
+        return None
+    made = [again(piece, told=entries) for piece in _pieces(situation.message)]
+    orders = [one for one in made if not isinstance(one, Remember)]
+    if len(orders) != 1 or not isinstance(orders[0], Do):
+        return None
+    notes = tuple(note for note in orders[0].notes if note.source not in {fact.name for fact in told})
+    return replace(orders[0], notes=notes, told=(*orders[0].told, *told))
 
 
 def _looking(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, again: Again) -> Ask | None:
@@ -90,12 +107,17 @@ def _looking(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, ag
 
 
 _SENTENCE = re.compile(r"\w[^.,;:!?]*")
+_I_AM = re.compile(r"\b(?:i|we)(?: a|['’])(?:m|re)\b", re.IGNORECASE)
 _BINDING = re.compile(r"\b(?:if|unless|until|when|while|or|because|but|not)\b", re.IGNORECASE)
+
+
+def _pieces(message: str) -> list[str]:
+    return [found[0].strip() for found in _SENTENCE.finditer(message)]
 
 
 def _beside(message: str, again: Again) -> tuple[Told, ...]:
     """The facts of a message that is asked about: whole sentences on which nothing in it depends."""
-    pieces = [found[0].strip() for found in _SENTENCE.finditer(message)]
+    pieces = _pieces(message)
     if len(pieces) == 1 or _BINDING.search(message):
         return ()
     made = [again(piece) for piece in pieces]

@@ -389,12 +389,13 @@ class Grounder:
             self.before = thing
             self.last_thing = Value(thing.description, with_article(thing.description), (thing,))
         if person is not None:
-            self.last_person = Value(person.thing, with_article(person.thing), (), person)
+            name = as_said(person.thing, person.memory.data)
+            self.last_person = Value(name, with_article(name), (), person)
 
     def told_about(self, name: tuple[str, ...]) -> None:
         """Somebody of whom something was told just now."""
         if name and name[-1] not in self.lexicon.classes["persons"] | self.lexicon.classes["pronouns"]:
-            text = " ".join(name)
+            text = as_said(" ".join(name), self.situation.message)
             self.last_person = Value(text, with_article(text), (), known_place(name, self.known))
 
     def loose(self, filler: Filler) -> None:

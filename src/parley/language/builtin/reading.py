@@ -38,7 +38,7 @@ class Reading:
 def read(parse: Parse, lexicon: Lexicon) -> Reading:
     """What is wished and told."""
     wishes: list[Wish] = []
-    spans = _ordered_alone(parse, _merged(parse))
+    spans = [part for span in _ordered_alone(parse, _merged(parse)) for part in _by_way(parse, span)]
     fillers = [_filler(parse, span, lexicon) for span in spans]
     for number, verb in enumerate(parse.verbs):
         mine = [filler for filler, span in zip(fillers, spans, strict=True) if span.owner == number]
@@ -111,6 +111,19 @@ def _merged(parse: Parse) -> list[Span]:
             span = replace(span, owner=nearest)
         found.append(span)
     return found
+
+
+_WAYS = frozenset({"past", "via", "through", "along", "around", "by", "across"})
+
+
+def _by_way(parse: Parse, span: Span) -> list[Span]:
+    """Where to, apart from the way there: "past the desk" is no goal of "go past the desk to the door"."""
+    low = [token.low for token in parse.tokens[span.start : span.end]]
+    if span.role != "G" or low[0] not in _WAYS or "to" not in low[2:-1] or {*low} & {"left", "right"}:
+        return [span]
+    to = span.start + low.index("to", 2)
+    way = replace(span, role="M", end=to, head=min(span.head, to - 1))
+    return [way, replace(span, start=to, head=span.end - 1)]
 
 
 def _apart(parse: Parse, span: Span, nearest: int) -> bool:
