@@ -178,6 +178,21 @@ def test_of_a_robot_with_nothing_to_do_a_dont_is_a_rule_whatever_its_reason(text
 
 
 @pytest.mark.parametrize(
+    ("text", "doing", "name"),
+    [
+        ("don't go into the storeroom", "Go to “lift”", "storeroom"),
+        ("don't go into the storeroom", "Go to “shelf in the storeroom”", ""),
+        ("don't go into the storeroom", "", ""),  # it is not known what it is about
+        ("don't go in there", "Go to “lift”", ""),
+    ],
+)
+def test_a_dont_that_is_about_nothing_the_robot_does_is_a_rule(text: str, doing: str, name: str) -> None:
+    found = told_rule(text, places=PLACES, catalogue=CATALOGUE, robots=("Ada",), robot="Ada", doing=doing)
+    assert (found.rule.name if isinstance(found, DraftRule) else "") == name
+    assert name or found is None
+
+
+@pytest.mark.parametrize(
     ("text", "place"),
     [
         ("Kim is awake now, you may go to the storeroom again", "storeroom"),

@@ -72,6 +72,8 @@ class Listener:
     """What it can do."""
     busy: bool = True
     """Whether it has something to do: then "don't go there" is about that."""
+    doing: str = ""
+    """What that is in words, if it is known."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -290,7 +292,7 @@ class RuleTalk:
     def _told(self, text: str, to: Listener) -> DraftRule | NotUnderstood | None:
         return told_rule(
             text, places=to.places, catalogue=to.catalogue, robots=to.robots, robot=to.robot, busy=to.busy,
-            zones=self._book.rules.rules, areas=self._areas(),
+            doing=to.doing, zones=self._book.rules.rules, areas=self._areas(),
         )  # fmt: skip
 
     def _proposed(self, told: DraftRule, to: Listener) -> RuleReply:

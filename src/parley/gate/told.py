@@ -125,6 +125,7 @@ def told_rule(
     zones: Sequence[Rule] = (),
     areas: Sequence[MapArea] = (),
     busy: bool = True,
+    doing: str = "",
 ) -> DraftRule | NotUnderstood | None:
     """What a person told as a rule; None if it is no rule.
 
@@ -137,12 +138,14 @@ def told_rule(
         zones: Zones that there are already: their names are places, too.
         areas: Rooms and other named parts of the map.
         busy: Whether the robot has something to do: then "don't go there" is about that, and no rule.
+        doing: What that is in words, if it is known: what does not go there is not what "don't" is about.
     """
     if len(text) > _MAX_CHARS or text.rstrip().endswith("?"):
         return None
     said = re.sub(r"\s+", " ", text.replace("’", "'").casefold()).strip(" .!")
     said = _BEGIN.sub("", said).replace("don't ever", "never").replace("do not ever", "never")
-    said = said if busy else _DONT.sub("never ", said)
+    may_be_plan = busy and _DONT.match(said) is not None
+    said = said if busy and not doing else _DONT.sub("never ", said)
     world = _World(places, catalogue, robots, robot, zones, areas)
     missed: NotUnderstood | None = None
     # Why it holds may stand behind it, and until when: that is asked without, and ends when people say so.
@@ -151,10 +154,17 @@ def told_rule(
         for form in (_asked, _slowed, _forbidden):
             found = form(_FOR_NOW.sub("", plain), world)
             if isinstance(found, NotUnderstood):
-                missed = found
+                missed = None if may_be_plan else found
+            elif found is not None and may_be_plan and _is_named(found.get("name", ""), doing):
+                return None
             elif found is not None:
                 return _drafted(found, meant, text, world)
     return missed
+
+
+def _is_named(place: str, doing: str) -> bool:
+    """Whether what a robot is doing has to do with a place."""
+    return {*re.findall(r"\w+", place.casefold())} <= {*re.findall(r"\w+", doing.casefold())}
 
 
 _DONT: Final = re.compile(

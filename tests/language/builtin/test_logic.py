@@ -243,10 +243,9 @@ async def test_a_place_is_looked_through_for_something_else() -> None:
     ]  # fmt: skip
 
 
-async def test_what_was_listed_is_meant_by_its_name_later() -> None:
-    told = await ENGINE.interpret(
-        situation("There are three places of interest: gate 1, the pump, and gate 3.")
-    )
+@pytest.mark.parametrize("listed", ["gate 1, the pump, and gate 3", "gate 1, pump and 3"])
+async def test_what_was_listed_is_meant_by_its_name_later(listed: str) -> None:
+    told = await ENGINE.interpret(situation(f"There are three places of interest: {listed}."))
     (kept,) = (command.arguments for command in told.system_cmd if command.command == "add_memory")
     assert told.queue == ()
     memory = MemoryEntry(name=str(kept["name"]), data=str(kept["data"]), way="told")

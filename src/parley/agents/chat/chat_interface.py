@@ -430,6 +430,7 @@ class ChatInterface(Node):
             self._known.objects(target),
             status.catalogue if status else (),
             busy=self._known.state(target) != "idle",
+            doing=self._known.doing(target),
         )
         if self._rules is not None and self._rules.concerns(said.message, to):  # names of their own are names
             known = taught_in(await recall(self.transport, said.message, scope=target))

@@ -136,6 +136,14 @@ class Situations:
         plan = self.plans.get(target)
         return plan.state if plan is not None else "idle"
 
+    def doing(self, target: str) -> str:
+        """What a robot still has to do, in words; empty if that is nothing, or waits for a yes."""
+        plan = self.plans.get(target)
+        if plan is None or plan.state in ("idle", "awaiting_approval"):
+            return ""
+        is_over = ("finished", "skipped", "stopped")
+        return "; ".join(step.label for step in plan.steps if step.state not in is_over)
+
     def moves(self, target: str, status: ActorStatus | None) -> bool:
         """Whether a robot is under way, or may be: a step that moves it runs, or it does not stand."""
         plan = self.plans.get(target)

@@ -156,7 +156,8 @@ class Grounder:
         name, rest = noun_phrase(filler.words, filler.head, lexicon)
         place = known_place(name, self.known) if "'s" not in rest[:1] else None
         if place is not None:
-            return Value(place.thing, with_article(place.thing), (), place)
+            called = as_said(place.thing, place.memory.data)
+            return Value(called, with_article(called), (), place)
         looked_for = frame in ("FIND", "COUNT", "DO", "MAKE") or rest or not objects or placed
         looked_for = looked_for or (frame in self.skills and self.skills[frame].is_by_hand)
         movable = frame in _MOVABLE and filler.role == "T" and looked_for

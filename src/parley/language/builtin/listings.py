@@ -62,9 +62,13 @@ _COUNTS: Final = frozenset({
 def _items(text: str, objects: Sequence[MapObject]) -> tuple[MapObject, ...]:
     """The things that a list names; none if anything else stands in it."""
     parts = [part for part in re.split(r",\s*(?:and\s+)?|;\s*|\s+and\s+", text.strip(" .!")) if part]
-    names = [stems(re.sub(r"^(?:the|an?|my|our) ", "", part.lower()).split()) for part in parts]
-    called = [
-        [item for item in objects if name in {stems(n.split()) for n in (item.description, *item.aliases)}]
-        for name in names
-    ]
+    said = [re.sub(r"^(?:the|an?|my|our) ", "", part.lower()).split() for part in parts]
+    kind = said[0][:-1] if said else []
+    called = [_called(words, objects) or _called([*kind, *words], objects) for words in said]
     return tuple(one[0] for one in called) if all(len(one) == 1 for one in called) else ()
+
+
+def _called(words: Sequence[str], objects: Sequence[MapObject]) -> list[MapObject]:
+    """What is called so; "2" behind "bay 1" is bay 2."""
+    name = stems(words)
+    return [item for item in objects if name in {stems(n.split()) for n in (item.description, *item.aliases)}]

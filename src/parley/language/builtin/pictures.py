@@ -10,7 +10,7 @@ from parley.errors import LanguageError
 from parley.language.base import InspectionReport
 from parley.language.builtin.judging import Asked, asked
 from parley.language.builtin.lexicon import lexicon, stem
-from parley.language.builtin.saying import with_article
+from parley.language.builtin.saying import as_said, with_article
 from parley.language.builtin.things import head_of, link
 from parley.robots.base import CameraImage, Detection
 from parley.umrf.kinds import is_word_for
@@ -101,7 +101,7 @@ def inspect(image: CameraImage, request: str, known: ObjectMap | None = None) ->
     if wish.kind == "room" and bounded and all(found.x_m is not None for found in seen):
         return _room(scene, wish)
     if wish.kind == "thing" and (wish.thing or wish.place):
-        return _thing(scene, wish)
+        return _thing(scene, wish, as_said(" ".join(wish.thing), request))
     starts = request.lower().startswith("what")
     statement = "" if starts else request.partition(" ")[2]
     judge = f" Please look at the picture and judge whether {statement}." if statement else ""
@@ -131,9 +131,8 @@ def _room(scene: _Scene, wish: Asked) -> InspectionReport:
     )  # fmt: skip
 
 
-def _thing(scene: _Scene, wish: Asked) -> InspectionReport:
+def _thing(scene: _Scene, wish: Asked, name: str) -> InspectionReport:
     """Whether something is there."""
-    name = " ".join(wish.thing)
     found = _called(scene, wish)
     here = [one for one in found if scene.of(one) != "outside" or not _is_bounded(scene.place)]
     if here and not (wish.unwanted or not wish.holds):
@@ -158,7 +157,7 @@ def _thing(scene: _Scene, wish: Asked) -> InspectionReport:
         )  # fmt: skip
     more = f" I can see {' and '.join(scene.told(one) for one in found)}." if found else ""
     return InspectionReport(
-        f"I looked, but I cannot see the {name}{scene.there}.{more or scene.also}",
+        f"I looked, but I cannot see {with_article(name) or 'it'}{scene.there}.{more or scene.also}",
         False, name, things=tuple(found),
     )  # fmt: skip
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from parley.language.builtin.saying import counted
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 from parley.world.whereabouts import called
@@ -50,7 +51,7 @@ def lies(item: MapObject, objects: Sequence[MapObject], pose: Pose2D | None) -> 
     near = min(others, key=lambda other: distance_m(other, at), default=None)
     room = room_of(item, rooms(objects))
     far_m = round(max(distance_m(item, pose), 1.0)) if pose is not None else 0
-    parts = [f"about {far_m} metre{'s' if far_m > 1 else ''} from me"] if far_m else []
+    parts = [f"about {counted(far_m, 'metre')} from me"] if far_m else []
     parts += [f"in the {room}"] if room and room not in item.description.lower() else []
     parts += [f"near {called(near.description)}"] if near is not None else []
     return ", ".join(parts) or "on my map"
@@ -69,6 +70,6 @@ def whereabouts(objects: Sequence[MapObject], pose: Pose2D | None) -> str:
     room = next(
         (r for item in nearest if distance_m(item, pose) < _IN_ROOM_M and (r := room_of(item, known))), ""
     )
-    far = f"about {max(far_m, 1.0):.0f} metres from"
+    far = f"about {counted(round(max(far_m, 1.0)), 'metre')} from"
     near = f"{'by' if far_m <= _AT_M else far} {called(name)}"
     return near if not room or room in name.lower() else f"{near}, in the {room}"
