@@ -38,7 +38,7 @@ class Reading:
 def read(parse: Parse, lexicon: Lexicon) -> Reading:
     """What is wished and told."""
     wishes: list[Wish] = []
-    spans = [part for span in _ordered_alone(parse, _merged(parse)) for part in _by_way(parse, span)]
+    spans = [part for span in _ordered_alone(parse, _merged(parse)) for part in _by_way(parse, span, lexicon)]
     fillers = [_filler(parse, span, lexicon) for span in spans]
     for number, verb in enumerate(parse.verbs):
         mine = [filler for filler, span in zip(fillers, spans, strict=True) if span.owner == number]
@@ -116,10 +116,12 @@ def _merged(parse: Parse) -> list[Span]:
 _WAYS = frozenset({"past", "via", "through", "along", "around", "by", "across"})
 
 
-def _by_way(parse: Parse, span: Span) -> list[Span]:
+def _by_way(parse: Parse, span: Span, lexicon: Lexicon) -> list[Span]:
     """Where to, apart from the way there: "past the desk" is no goal of "go past the desk to the door"."""
     low = [token.low for token in parse.tokens[span.start : span.end]]
-    if span.role != "G" or low[0] not in _WAYS or "to" not in low[2:-1] or {*low} & {"left", "right"}:
+    if span.role != "G" or low[0] not in _WAYS or "to" not in low[2:-1]:
+        return [span]
+    if {*low} & lexicon.classes["parts"]:  # "through the door to the front"
         return [span]
     to = span.start + low.index("to", 2)
     way = replace(span, role="M", end=to, head=min(span.head, to - 1))
