@@ -26,6 +26,7 @@ from parley.language.builtin.wishes import Wish
 from parley.language.control import control_of
 from parley.language.dialogue import policy
 from parley.language.dialogue.facts import is_report
+from parley.language.dialogue.indirect import meant
 from parley.language.dialogue.mentions import named
 from parley.language.dialogue.speaker import Again, name_of
 from parley.messages.memory import MemoryEntry
@@ -58,6 +59,9 @@ def decide(
 
     tokens = spoken(tokenize(situation.message)) or tokenize(situation.message)
     whole = reader(situation.message)
+    indirect = meant(tokens, (situation.robot,), lexicon, again)
+    if indirect is not None:
+        return indirect
     early = policy.beforehand(situation, whole, tokens, lexicon, told_in, reader, again)
     if early is not None:
         return early

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 
 from parley.language.lexicon import load_data
 
@@ -56,7 +56,8 @@ class Lexicon:
         for form in _forms(tuple(words)):
             if form in self.verbs:
                 return self.verbs[form]
-        return frozenset()
+        meant = _turned(words[0].lower()) if words else ""
+        return self.verbs.get((meant, *words[1:]), frozenset()) if meant else frozenset()
 
     def frames_of(self, verb: Sequence[str], particles: Sequence[str] = ()) -> frozenset[str]:
         """What a verb may call up with its particles, else alone, else by its first words."""
@@ -67,6 +68,17 @@ class Lexicon:
 def _forms(words: tuple[str, ...]) -> list[tuple[str, ...]]:
     """With each lemma the first word may have."""
     return [(first, *words[1:]) for first in lemmas(words[0])] if words else []
+
+
+@lru_cache(maxsize=1024)
+def _turned(word: str) -> str:
+    """The one verb of which a word has two letters the wrong way round: "moev"; empty if there is none."""
+    known = {verb[0] for verb in lexicon().verbs}
+    if len(word) < 4 or word in known:
+        return ""
+    swaps = (f"{word[:at]}{word[at + 1]}{word[at]}{word[at + 2 :]}" for at in range(len(word) - 1))
+    found = {swap for swap in swaps if swap != word and swap in known}
+    return found.pop() if len(found) == 1 else ""
 
 
 def lemmas(word: str) -> tuple[str, ...]:
