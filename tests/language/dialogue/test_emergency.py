@@ -62,3 +62,40 @@ def test_that_all_is_well_may_be_said_twice() -> None:
     assert isinstance(alarm, Ask) and alarm.alarms
     past = (Turn("operator", "Kim fell at the desk"), Turn("assistant", alarm.question))
     assert isinstance(ENGINE.decide(situation("she is fine, it was a false alarm", history=past)), Answer)
+
+
+TEAM = ("Ada", "Bob", "Mr. Brush")
+
+
+@pytest.mark.parametrize(
+    ("message", "helped"),
+    [
+        ("Ada, help Bob", "Bob"),
+        ("help Bob!", "Bob"),
+        ("please go and help out Mr. Brush", "Mr. Brush"),
+        ("Ada, can you give Bob a hand?", "Bob"),
+        ("Bob, help Ada", "Ada"),
+        ("Ada, assist Bob with that", "Bob"),
+    ],
+)
+def test_to_help_another_robot_is_no_emergency_and_it_is_asked_what_is_meant(
+    message: str, helped: str
+) -> None:
+    asked = ENGINE.decide(situation(message, robots=TEAM))
+    assert isinstance(asked, Ask) and not asked.alarms and not asked.stops
+    assert asked.question.startswith(f"What is to be done to help {helped}?")
+
+
+def test_what_another_robot_is_to_be_helped_with_is_done() -> None:
+    for message in ("Ada, help Bob to look for the red box", "help Bob look for the red box"):
+        made = ENGINE.decide(situation(message, robots=TEAM))
+        assert made == ENGINE.decide(situation("look for the red box", robots=TEAM)), message
+
+
+@pytest.mark.parametrize(
+    "message",
+    ["help, Ada!", "Ada, help", "help me", "help Kim", "help Bob, Kim fell", "Ada, help Bob, fire!"],
+)
+def test_a_cry_for_help_alarms_among_robots_too(message: str) -> None:
+    asked = ENGINE.decide(situation(message, robots=TEAM))
+    assert isinstance(asked, Ask) and asked.alarms, message

@@ -59,6 +59,8 @@ def emergency(
         reader: Reads a text.
         again: Decides about a part of the message.
     """
+    if (helps := _helps_robot(situation, lexicon, again)) is not None:
+        return helps
     text = situation.message
     acts = reader(text).acts
     pieces = [match.span() for match in _PIECE.finditer(text)] if len(tokens) <= _LONGEST else []
@@ -75,6 +77,38 @@ def emergency(
     if len(serious) < len(told) and not danger and not any("alarm" in reader(one).acts for one in serious):
         return again(order)
     return _alarm(situation, tokens, lexicon, order)
+
+
+def _helps_robot(situation: Situation, lexicon: Lexicon, again: Callable[[str], Decision]) -> Decision | None:
+    """What is decided where one robot is told to help another: nobody is in need by that.
+
+    Said to a robot itself, with its name behind, it is a cry: "help, Spot!".
+    """
+    found = _help_pattern(situation.robots).fullmatch(situation.message.strip())
+    if found is None or _danger(found["rest"] or "", lexicon):
+        return None
+    helped, called = (found["helped"] or found["lent"]).lower(), (found["called"] or situation.robot).lower()
+    if helped == called:
+        return None
+    made = again(found["rest"]) if found["rest"] and called == situation.robot.lower() else None
+    if isinstance(made, Do):
+        return made
+    name = next(name for name in situation.robots if name.lower() == helped)
+    return Ask(
+        f"What is to be done to help {name}? Say what to do, or where to go. "
+        "If a person is in danger, please say so."
+    )
+
+
+def _help_pattern(robots: tuple[str, ...]) -> re.Pattern[str]:
+    names = "|".join(map(re.escape, robots)) or "(?!)"
+    return re.compile(
+        rf"(?:(?P<called>{names})\W+)?(?:(?:please|now|quick|quickly|can|could|would|will|you|go|come|over|and|"
+        r"hey|ok|okay|so|then)\W+)*"
+        rf"(?:(?:help|assist|support)(?: out)? (?P<helped>{names})|(?:give|lend) (?P<lent>{names}) a hand)\b"
+        r"(?:,? (?:out|please|now|quickly|at once|right away)\b)*(?: (?:with |to )?(?P<rest>.+?))?[\s.!?]*",
+        re.IGNORECASE | re.DOTALL,
+    )
 
 
 def _danger(text: str, lexicon: Lexicon) -> list[str]:
