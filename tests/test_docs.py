@@ -12,7 +12,15 @@ from pydantic import BaseModel
 
 from parley.messages.attendance import Attendance
 from parley.messages.audit import AuditEvent
-from parley.messages.chat import SYSTEM_COMMANDS, ChatAction, ChatFeedback, ChatInput, ChatRead, ReplyDraft
+from parley.messages.chat import (
+    SYSTEM_COMMANDS,
+    ChatAction,
+    ChatFeedback,
+    ChatInput,
+    ChatRead,
+    PressTaken,
+    ReplyDraft,
+)
 from parley.messages.display import DisplayFeed
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.incident import Incident
@@ -59,6 +67,7 @@ PAYLOADS: dict[str, tuple[type[BaseModel], ...]] = {
     "/parley/memory_event": (MemoryEvent,),
     "/parley/reply_draft": (ReplyDraft,),
     "/parley/chat_read": (ChatRead,),
+    "/parley/press_taken": (PressTaken,),
     "/parley/incident": (Incident,),
     "/parley/map_view": (MapView,),
     "/parley/audit": (AuditEvent,),

@@ -7,6 +7,8 @@ from contextlib import AsyncExitStack
 from pathlib import Path
 from typing import Any, Self
 
+import httpx
+
 from parley.clock import WallClock
 from parley.demos.catalogue import load_demo
 from parley.demos.runner import play
@@ -15,7 +17,7 @@ from parley.messages.principal import person
 from parley.messages.status import StopCommand
 from parley.messages.wire import to_string
 from parley.transport.base import Transport
-from tests.parts import ROBOT, parts
+from tests.parts import ROBOT, parts, until_open
 
 
 async def test_each_half_is_killed_under_way_and_nothing_is_lost_or_done_twice(tmp_path: Path) -> None:
@@ -48,6 +50,38 @@ async def test_each_half_is_killed_under_way_and_nothing_is_lost_or_done_twice(t
         await operator.until(lambda: operator.state(ROBOT) == "idle")
         assert [step.state for step in operator.plans[ROBOT].steps][-2:] == ["finished", "finished"]
         assert (system.begun("NavigateTo"), system.begun("Inspect")) == (2, 1)
+
+
+async def test_a_button_that_is_pressed_while_nobody_plans_is_told_of_and_does_nothing_later(
+    tmp_path: Path,
+) -> None:
+    async with parts(tmp_path, "engine", "agents", "web") as system:
+        await until_open(f"tcp/127.0.0.1:{system.port}")
+        operator = system.operator
+        operator.say("go to the fridge", ROBOT)
+        await operator.until(lambda: system.begun("NavigateTo") == 1)
+        async with httpx.AsyncClient(base_url=f"http://127.0.0.1:{system.port}", timeout=20) as page:
+
+            async def press(command: str) -> int:
+                body = {"command": command}
+                return (await page.post(f"/api/plans/{ROBOT}/command", json=body)).status_code
+
+            async with asyncio.timeout(60):
+                while await press("pause") != 200:  # noqa: ASYNC110 - until it knows the robot
+                    await asyncio.sleep(0.2)
+            await operator.until(lambda: operator.state(ROBOT) == "paused")
+            await system.kill("agents")
+            assert await press("resume") == 200
+            told = ""
+            async with asyncio.timeout(60):
+                while "planning does not answer" not in told:
+                    await asyncio.sleep(0.2)
+                    told = (await page.get("/api/chat")).text
+            await system.start("agents")
+            await system.until_met()
+            assert system.statuses[ROBOT].state == "paused", "nothing begins by itself"
+            assert await press("resume") == 200
+            await operator.until(lambda: operator.state(ROBOT) == "running")
 
 
 class Apart:

@@ -16,7 +16,7 @@ from parley.gate.audit_text import told, who_of
 from parley.gate.heard import labels
 from parley.messages import topics
 from parley.messages.audit import AuditEntry, AuditEvent, AuditList, GetAudit
-from parley.messages.chat import ActionCall, ChatAction, ChatInput
+from parley.messages.chat import ActionCall, ChatAction, ChatInput, Press, SystemCommand
 from parley.messages.memory import AddToMemory, MemoryBody, MemoryEvent
 from parley.messages.principal import Principal, person
 from parley.messages.pvf import Parameter
@@ -138,6 +138,20 @@ async def test_a_yes_of_nobody_is_no_yes_of_the_one_who_asked() -> None:
         event = GraphEvent(actor="Ada", graph_name="g", sequence=0, kind="graph", state="RUNNING")
         await r.tell(topics.GRAPH_EVENTS, event)
         assert "approved_by" not in (await r.log(effect="start"))[0].detail
+
+
+async def test_a_button_that_is_sent_again_stands_in_the_log_once() -> None:
+    press = Press(page="p", number=1, to="r")
+    pause = ChatAction(system_cmd=(SystemCommand(command="stop"),), targets=("Ada",), by=KIM, press=press)
+    no = PlanDecision(id="p", target="Ada", decision="reject", by=KIM)
+    async with rig() as r:
+        for _ in range(2):
+            await r.tell(topics.CHAT_ACTION, pause)
+            await r.tell(
+                topics.PLAN_DECISION,
+                no.model_copy(update={"press": press.model_copy(update={"number": 2})}),
+            )
+        assert sorted(entry.effect for entry in await r.log(robot="Ada")) == ["pause", "reject"]
 
 
 @pytest.mark.parametrize(

@@ -27,8 +27,10 @@ def test_whatever_an_answer_says_of_itself_it_is_the_engines() -> None:
         "behalf": None,
         "needs_yes": "x",
         "id": "7",
+        "press": {"page": "p", "number": 999, "to": "r"},
     }
     order = admitted("go", **claims).order
+    assert order.press is None, "no button was pressed"
     assert order.by == Principal(kind="engine", name="model")
     assert (order.behalf, order.words) == (KIM, "go")
 

@@ -44,6 +44,7 @@ CLAIM = {
     "capacity": {"hall": 1, "door": 2},
     "without": ["B"],
 }
+PRESS = {"page": "p", "number": 7, "to": "r"}
 PASSAGE = {"name": "hall", "robots": ["A"], "lost": ["A"], "waiting": ["B"]}
 POSE = {"x": 1.0, "y": -2.5, "yaw": 3.1}
 MEMORY = {
@@ -178,6 +179,8 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "images": [{"name": "box.jpg", "data": "aGk="}],
         "unattended": "hold",
     },
+    chat.Press: PRESS,
+    chat.PressTaken: {"run": "r", "id": "p.7"},
     chat.ReplyDraft: {"reply_to": "1", "targets": ["A"], "message": "I will"},
     chat.ChatFeedback: {
         "message": "Which one?",
@@ -437,6 +440,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "policy": "ask_first",
         "digest": "5b1e",
         "by": KIM,
+        "press": PRESS,
     },
     status.StepCommand: {"target": "A", "graph_name": "g", "node": "Move_0", "command": "end"},
     status.StopCommand: {

@@ -14,7 +14,7 @@ from parley.gate.ruling import EFFECT_OF
 from parley.gate.table import Effect, verdict
 from parley.latest import Latest
 from parley.messages.audit import AuditEvent
-from parley.messages.chat import ActionCall, ChatAction, ChatInput
+from parley.messages.chat import ActionCall, ChatAction, ChatInput, Press
 from parley.messages.memory import AddToMemory, MemoryEvent
 from parley.messages.principal import Principal
 from parley.messages.status import (
@@ -54,6 +54,15 @@ class Heard:
         self._running: Latest[str, dict[str, Any]] = Latest()
         self._memories: Latest[str, tuple[Principal | None, str]] = Latest()
         self._stops: Latest[str, StopCommand] = Latest()
+        self._presses: Latest[str, None] = Latest()
+
+    def _is_repeat(self, press: Press | None) -> bool:
+        """Whether a button's press was heard before: it is sent until somebody takes it."""
+        if press is None:
+            return False
+        known = press.id in self._presses
+        self._presses[press.id] = None
+        return known
 
     def on_input(self, said: ChatInput) -> list[AuditEvent]:
         """Words of a person; what is passed on by those who asked is no new message."""
@@ -73,6 +82,8 @@ class Heard:
 
     def on_action(self, order: ChatAction, effect: Effect = Effect.BEGIN) -> list[AuditEvent]:
         """What was understood, or was ordered by a press."""
+        if self._is_repeat(order.press):
+            return []
         said = self._said.get(order.reply_to) if order.reply_to else None
         asked: dict[str, Any] = {}
         if said is not None:
@@ -113,6 +124,8 @@ class Heard:
 
     def on_decision(self, decision: PlanDecision) -> list[AuditEvent]:
         """A yes, a no, another plan, another policy."""
+        if self._is_repeat(decision.press):
+            return []
         effect = Effect(decision.decision)
         proposal = self._proposals.get(decision.id) if decision.id else None
         detail: dict[str, Any] = {"proposal": decision.id} if decision.id else {}

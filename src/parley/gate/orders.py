@@ -134,6 +134,7 @@ def admit(answer: ChatAction, heard: Heard) -> Admitted:
             "needs_yes": needs_yes,
             "choices": tuple(choice for choice in answer.choices if not _DECIDING.search(choice)),
             "others": (),
+            "press": None,
         }
     )
     others = tuple(_for_another(other, order, allowed) for other in answer.others if other.queue)

@@ -26,6 +26,8 @@ __all__ = [
     "CommandName",
     "Flow",
     "FlowIf",
+    "Press",
+    "PressTaken",
     "ReplyDraft",
     "SystemCommand",
 ]
@@ -119,6 +121,31 @@ class ChatRead(Payload):
 
     id: str = ""
     """Of the message; empty: whoever reads them is there."""
+
+
+class Press(Payload):
+    """Which press of a button a command or decision is: done once, and not after what was pressed later."""
+
+    page: str
+    """The page's server: one run of it."""
+    number: int
+    """Counts the presses there."""
+    to: str
+    """`PressTaken.run` of whoever told what was on the page then."""
+
+    @property
+    def id(self) -> str:
+        """Names this press."""
+        return f"{self.page}.{self.number}"
+
+
+class PressTaken(Payload):
+    """`/parley/press_taken`: the press of a button got to the planner; what did not is sent again."""
+
+    run: str
+    """Of the planner, from its start to its end."""
+    id: str = ""
+    """Of the press; empty: the planner has come."""
 
 
 class FlowIf(Payload):
@@ -270,6 +297,8 @@ class ChatAction(Payload):
     """Ours: orders, by `id`, whose steps other robots must have done before these begin."""
     alarm: bool = False
     """Ours: a person speaks of danger, so everybody who is connected is told."""
+    press: Press | None = None
+    """Ours: the button that was pressed, where it is one."""
     left_open: LeftOpen = LeftOpen()
     """Ours, only in the answer to a message: what the next ones may refer to."""
 
@@ -331,9 +360,9 @@ class ChatAction(Payload):
             wire["after"] = list(self.after)
         if self.others:
             wire["others"] = [other.to_wire() for other in self.others]
-        for name, who in (("by", self.by), ("behalf", self.behalf)):
-            if who is not None:
-                wire[name] = who.model_dump()
+        for name, told in (("by", self.by), ("behalf", self.behalf), ("press", self.press)):
+            if told is not None:
+                wire[name] = told.model_dump()
         wire |= {
             name: text
             for name in ("engine", "words", "needs_yes", "id", "reply_to", "replaces")

@@ -8,7 +8,7 @@ from typing import Any, Final, Literal
 from pydantic import Field, model_validator
 
 from parley.messages.base import ParameterTree, Payload
-from parley.messages.chat import ActionCall, SystemCommand
+from parley.messages.chat import ActionCall, Press, SystemCommand
 from parley.messages.passages import PassageClaim
 from parley.messages.plain import LineText, ShownText
 from parley.messages.principal import Principal
@@ -281,6 +281,8 @@ class PlanDecision(Payload):
     """For `approve`: the `digest` of the proposal as it was shown; a yes to anything else does not count."""
     by: Principal | None = None
     """Who decided; None: a program that nobody vouches for."""
+    press: Press | None = None
+    """The button that was pressed, where it is one."""
 
 
 class StepCommand(Payload):

@@ -17,10 +17,11 @@ from parley.clock import Clock, WallClock
 from parley.errors import StoreError
 from parley.gate.stop_line import StopLine
 from parley.language.stop_words import has_stop_word
-from parley.messages.chat import ChatFeedback, ChatImage, ChatInput
+from parley.messages.chat import ChatAction, ChatFeedback, ChatImage, ChatInput
 from parley.messages.map import MapView
 from parley.messages.principal import Principal, person
 from parley.messages.status import PlanDecision
+from parley.sentences import sentence
 from parley.transport.base import Transport
 from parley.web.bodies import ChatPost
 from parley.web.chat_state import Composed
@@ -48,6 +49,12 @@ RECENT: Final = 300
 RESEND_WITHIN_MS: Final = 30_000
 """A message that a killed server may not have sent is sent by the next one unless it is older than this;
 and for so long is one said again that nobody has read."""
+PRESSED_WITHIN_S: Final = 5.0
+"""Wall time for which a button's press that nobody has taken is sent again: it acts soon, or not at all."""
+NOT_TAKEN: Final = sentence(
+    "A button was pressed, but planning does not answer, so nothing may have been done for it. Look how "
+    "things stand, and press again if it still holds."
+)
 AGAIN_S: Final = 1.0
 """Wall time between two tries."""
 
@@ -93,7 +100,7 @@ class Backend:
         self._sending: set[str] = set()
         self._keeping: set[asyncio.Task[None]] = set()
         self._unread: dict[str, asyncio.Task[None]] = {}
-        """What waits for messages to be read, by entry."""
+        """What waits for messages to be read, by entry, and for presses."""
         self._policies: dict[str, str] = {}
         self._policy_by: dict[str, str] = {}
         """Who chose it, by robot, as JSON."""
@@ -141,6 +148,7 @@ class Backend:
                 self.clock,
                 on_view=self._on_view,
                 on_joined=self._on_joined,
+                on_planner=self._on_planner,
             )
         )
         loop = asyncio.get_running_loop()
@@ -312,12 +320,29 @@ class Backend:
         """Whoever reads what people say may be cut off, or about to be started anew."""
         try:
             async with asyncio.timeout(RESEND_WITHIN_MS / 1000):
-                await self.link.until_read(messages, again_s=AGAIN_S)
+                await self.link.until_read([said.id for said in messages], again_s=AGAIN_S)
         except TimeoutError:
             if self.link.says_what_it_read:
                 self._tell_unread(entry)
         await self.store.mark_sent(entry.id)
         del self._unread[entry.id]
+
+    def press(self, message: ChatAction | PlanDecision) -> None:
+        """Send what a button does, again until whoever plans has taken it, or tell that it may not have."""
+        if press := self.link.press(message):
+            self._unread[press] = asyncio.create_task(self._until_taken(press, message), name="web press")
+
+    async def _until_taken(self, press: str, message: ChatAction | PlanDecision) -> None:
+        try:
+            async with asyncio.timeout(PRESSED_WITHIN_S):
+                await self.link.until_read([press], again_s=AGAIN_S)
+        except TimeoutError:
+            targets = message.targets if isinstance(message, ChatAction) else (message.target,)
+            told = ChatFeedback(message=NOT_TAKEN, targets=targets, type="error")
+            self.state.chat.on_feedback(told, unix_ms=self.clock.unix_ms())
+            if isinstance(message, PlanDecision):
+                self.state.plans.on_unheard(message)
+        del self._unread[press]
 
     async def _give_up_reading(self) -> None:
         for task in tuple(self._unread.values()):
@@ -392,20 +417,24 @@ class Backend:
         await self.store.set("policy", robot, policy)
         await self.store.set("policy_by", robot, by.model_dump_json())
         self._policies[robot], self._policy_by[robot] = policy, by.model_dump_json()
-        self._tell_policy(robot)
+        self.press(self._policy_told(robot))
 
     # -- what comes in ---------------------------------------------------------------------------------
 
     def _on_joined(self, robot: str) -> None:
         if robot in self._policies:
-            self._tell_policy(robot)
+            self.link.send(self._policy_told(robot))
 
-    def _tell_policy(self, robot: str) -> None:
+    def _on_planner(self) -> None:
+        for robot in self._policies:
+            self.link.send(self._policy_told(robot))
+
+    def _policy_told(self, robot: str) -> PlanDecision:
         """What somebody chose counts in their name, whenever the robot is told."""
         known = self._policy_by.get(robot)
         by = Principal.model_validate_json(known) if known else person(device="page")
         decision = {"target": robot, "decision": "policy", "policy": self._policies[robot], "by": by}
-        self.link.send(PlanDecision.model_validate(decision))
+        return PlanDecision.model_validate(decision)
 
     def _on_view(self, view: MapView) -> None:
         for listener in self.view_listeners:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import itertools
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from typing import Final, Self, TypeVar
 
 import structlog
@@ -15,7 +17,7 @@ from parley.errors import GraphRefusedError, InvalidMessageError, TransportError
 from parley.messages import topics
 from parley.messages.attendance import Attendance
 from parley.messages.audit import AuditEvent
-from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, ChatRead, ReplyDraft
+from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, ChatRead, Press, PressTaken, ReplyDraft
 from parley.messages.incident import GetIncidents, Incident, IncidentList
 from parley.messages.map import MapView
 from parley.messages.memory import AddToMemory, MemoryEvent, RemoveMemory
@@ -71,6 +73,15 @@ _LOST: Final = (
 )
 
 
+@dataclass(slots=True)
+class _Unread:
+    message: ChatInput | ChatAction | PlanDecision
+    robots: tuple[str, ...]
+    read: asyncio.Event = field(default_factory=asyncio.Event)
+    overtaken: bool = False
+    """By something newer: it is not sent again."""
+
+
 class Link:
     """Connects a `WebState` to a transport. Use as ``async with``.
 
@@ -80,6 +91,7 @@ class Link:
         clock: Wall time.
         on_view: Told after a robot's place on the map changed.
         on_joined: Told when a robot is heard of for the first time, or was started anew.
+        on_planner: The same of whoever plans.
     """
 
     def __init__(
@@ -90,17 +102,19 @@ class Link:
         *,
         on_view: Callable[[MapView], None] = lambda _: None,
         on_joined: Callable[[str], None] = lambda _: None,
+        on_planner: Callable[[], None] = lambda: None,
     ) -> None:
         self.transport, self._state, self._clock = transport, state, clock
-        self._on_view_heard, self._on_joined = on_view, on_joined
+        self._on_view_heard, self._on_joined, self._on_planner = on_view, on_joined, on_planner
         self._stack = contextlib.AsyncExitStack()
         self._publishers: dict[type[BaseModel], Publisher[String]] = {}
         self._echoes: dict[str, asyncio.Future[None]] = {}
         """Messages that were published and did not come back yet, by id."""
         self.says_what_it_read = False
         """Whether whoever reads what people say was ever heard to say so; a node of another make does not."""
-        self._read: dict[str, asyncio.Event] = {}
-        """Set once a message that was published is read, by its id."""
+        self._unread: dict[str, _Unread] = {}
+        """Words and presses that were published, by their id."""
+        self._planner, self._presses = "", itertools.count()
         self._losses = Losses(self._tell_lost)
         self._memory_waits: dict[str, list[asyncio.Future[MemoryEvent]]] = {}
 
@@ -132,6 +146,7 @@ class Link:
             topics.REPLY_DRAFT, _reader(ReplyDraft), lambda m: state.chat.on_draft(m, unix_ms=now_ms())
         )
         await self._listen(topics.CHAT_READ, _reader(ChatRead), self._on_read)
+        await self._listen(topics.PRESS_TAKEN, _reader(PressTaken), self._on_taken)
         await self._listen(topics.PLAN, decode_plan, state.on_plan)
         await self._listen(topics.PLAN_DECISION, _reader(PlanDecision), state.plans.on_decision)
         await self._listen(topics.GRAPH_EVENTS, _reader(GraphEvent), state.on_event)
@@ -166,6 +181,8 @@ class Link:
         | ChatFeedback,
     ) -> None:
         """Publish what an operator said or decided, or what is to be said to them, on its topic."""
+        if isinstance(message, StopCommand) and message.command in ("stop", "hold"):
+            self._overtake(message.targets, words=True)
         self._publishers[type(message)].publish(to_string(message))
 
     async def say(self, message: ChatInput) -> None:
@@ -173,7 +190,8 @@ class Link:
 
         `until_read` has to follow.
         """
-        self._read.setdefault(message.id, asyncio.Event())
+        self._overtake(message.targets)
+        self._unread.setdefault(message.id, _Unread(message, message.targets))
         echo: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._echoes[message.id] = echo
         try:
@@ -185,19 +203,43 @@ class Link:
         finally:
             del self._echoes[message.id]
 
-    async def until_read(self, messages: Sequence[ChatInput], *, again_s: float) -> None:
-        """Wait until all that was said is read, and say it again meanwhile: who has read it knows its id."""
+    def press(self, message: ChatAction | PlanDecision) -> str:
+        """Publish what a button does; its id for `until_read`, empty if no planner says what it takes.
+
+        What was pressed before is not sent again, nor after a pause or a drop what was said before.
+        """
+        robots = message.targets if isinstance(message, ChatAction) else (message.target,)
+        commands = message.system_cmd if isinstance(message, ChatAction) else ()
+        self._overtake(robots, words=any(command.command in ("stop", "clear") for command in commands))
+        press = Press(page=self._state.log.run, number=next(self._presses), to=self._planner)
+        if self._planner:
+            message = message.model_copy(update={"press": press})
+            self._unread[press.id] = _Unread(message, robots)
+        self.send(message)
+        return press.id if self._planner else ""
+
+    def _overtake(self, robots: Sequence[str], *, words: bool = False) -> None:
+        """Something newer goes to robots (none: all): a late deed is worse than a question."""
+        for unread in self._unread.values():
+            if words or not isinstance(unread.message, ChatInput):
+                unread.overtaken |= not robots or not unread.robots or bool({*robots} & {*unread.robots})
+
+    async def until_read(self, ids: Sequence[str], *, again_s: float) -> None:
+        """Wait until all of that is read, and send it again meanwhile: who has read it knows its id."""
+        waiting = [self._unread[identity] for identity in ids]
         try:
-            while unread := [said for said in messages if not self._read[said.id].is_set()]:
+            while unread := [each for each in waiting if not each.read.is_set()]:
                 with contextlib.suppress(TimeoutError):
                     async with asyncio.timeout(again_s):
-                        await self._read[unread[0].id].wait()
+                        await unread[0].read.wait()
                         continue
-                for said in unread if self.says_what_it_read else ():
-                    self.send(said)
+                for each in unread:
+                    words = isinstance(each.message, ChatInput)
+                    if not each.overtaken and (self.says_what_it_read or not words):
+                        self.send(each.message)
         finally:
-            for said in messages:
-                del self._read[said.id]
+            for identity in ids:
+                del self._unread[identity]
 
     async def ask(self, service: Service[ChatRequest, ChatResponse], request: BaseModel, kind: type[P]) -> P:
         """Call a service that speaks JSON.
@@ -294,8 +336,15 @@ class Link:
 
     def _on_read(self, read: ChatRead) -> None:
         self.says_what_it_read = True
-        if (waited := self._read.get(read.id)) is not None:
-            waited.set()
+        if (waited := self._unread.get(read.id)) is not None:
+            waited.read.set()
+
+    def _on_taken(self, taken: PressTaken) -> None:
+        if (waited := self._unread.get(taken.id)) is not None:
+            waited.read.set()
+        if taken.run != self._planner:
+            self._planner = taken.run
+            self._on_planner()
 
     def _on_stop(self, command: StopCommand) -> None:
         self._state.robots.on_stop(command, now_s=self._clock.wall_s(), unix_ms=self._clock.unix_ms())

@@ -29,6 +29,7 @@ __all__ = ["PlanBook"]
 PAST_KEPT: Final = 500
 OVER_KEPT: Final = 3
 """How many other graphs of a robot stay listed after they ended."""
+_DONE: Final = OVER - {"failed"}
 
 
 class PlanBook:
@@ -51,7 +52,7 @@ class PlanBook:
         self._past: Latest[tuple[str, str], None] = Latest(PAST_KEPT)
         """Graphs of plans that were replaced: what comes late about them is dropped."""
         self.decided: set[str] = set()
-        """Proposals that were approved or edited, but may yet be refused and then go on waiting."""
+        """Proposals that were decided about, but go on waiting if that is refused or not heard."""
 
     # -- plans -----------------------------------------------------------------------------------------
 
@@ -72,6 +73,12 @@ class PlanBook:
     def is_past(self, robot: str, revision: int) -> bool:
         """Whether the steps of a robot's plan that have not begun are others than at `revision`."""
         return revision < self._free_since.get(robot, 0)
+
+    def planned(self, robot: str, index: int) -> str:
+        """The id of a step that is not over, by its place among those; empty if it is not known."""
+        update = self._updates.get(robot)
+        left = [step.id for step in update.steps if step.state not in _DONE] if update is not None else []
+        return left[index] if index < len(left) else ""
 
     def on_proposal(self, proposal: PlanProposal) -> None:
         """Steps wait for a yes, in the place of what was decided but is not what waits."""
@@ -107,13 +114,13 @@ class PlanBook:
         self._emit(ProposalChange(seq=0, proposal=view))
 
     def on_decision(self, decision: PlanDecision) -> None:
-        """Somebody decided; what was not rejected is gone when the plan takes the steps up."""
-        if decision.id not in self.proposals:
-            return
-        if decision.decision == "reject":
-            self._end_proposal(decision.id)
-        else:
+        """Somebody decided; what waited is gone when the planner tells so."""
+        if decision.id in self.proposals:
             self.decided.add(decision.id)
+
+    def on_unheard(self, decision: PlanDecision) -> None:
+        """Nobody heard it."""
+        self.decided.discard(decision.id)
 
     def on_rejection(self, rejection: Rejection) -> None:
         """The steps of a proposal were refused."""

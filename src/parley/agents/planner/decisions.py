@@ -13,6 +13,7 @@ from parley.agents.planner.commands import Commands
 from parley.agents.planner.flow import listed, rebased
 from parley.agents.planner.ordering import BeginFor, Ordering
 from parley.agents.planner.plan import TargetPlan
+from parley.agents.planner.presses import Presses
 from parley.agents.planner.proposing import Proposals
 from parley.agents.planner.robot_plans import RobotPlans
 from parley.agents.questions import SeenIds
@@ -41,6 +42,7 @@ class Decisions:
         commands: Does what a command says.
         ordering: Has the steps of an edit weighed, in turn with orders.
         begin_for: Told on whose account a robot acts from now on.
+        presses: Of buttons.
     """
 
     def __init__(
@@ -51,9 +53,10 @@ class Decisions:
         commands: Commands,
         ordering: Ordering,
         begin_for: BeginFor,
+        presses: Presses,
     ) -> None:
         self._node, self._plans, self._proposals, self._commands = node, plans, proposals, commands
-        self._ordering, self._begin_for = ordering, begin_for
+        self._ordering, self._begin_for, self._presses = ordering, begin_for, presses
         self._begun = SeenIds()
         """What somebody said yes to."""
 
@@ -62,6 +65,9 @@ class Decisions:
         await self._node.subscribe(topics.PLAN_DECISION, PlanDecision, self._on_decision, in_charge=True)
 
     def _on_decision(self, decision: PlanDecision) -> None:
+        harmless = decision.decision in ("reject", "policy")
+        if not self._presses.counts(decision.press, decision.target, harmless=harmless):
+            return
         target = self._plans.presence.resolve(decision.target) or decision.target
         if verdict(decision.by, DECIDES[decision.decision]) != "allow":
             problem = Problem("by", "only a person decides that", "let a person say it", "not_a_person")

@@ -12,6 +12,7 @@ from parley.agents.planner.asking import SHALL_I, wish_of
 from parley.agents.planner.check import complete_calls
 from parley.agents.planner.commands import Commands
 from parley.agents.planner.plan import TargetPlan
+from parley.agents.planner.presses import Presses
 from parley.agents.planner.proposing import Proposals
 from parley.agents.planner.robot_plans import RobotPlans
 from parley.errors import LanguageError
@@ -51,6 +52,7 @@ class Ordering:
         proposals: Where what waits for a yes is put.
         commands: Does what a command says.
         judge: What the rules say about steps; None: there are none.
+        presses: Of buttons.
     """
 
     def __init__(
@@ -60,9 +62,10 @@ class Ordering:
         proposals: Proposals,
         commands: Commands,
         judge: Judge | None,
+        presses: Presses,
     ) -> None:
         self._node, self._plans, self._proposals, self._commands = node, plans, proposals, commands
-        self._judge = judge
+        self._judge, self._presses = judge, presses
         self._mailboxes: Mailboxes[str] = Mailboxes(self._on_defect)
         self._weighing: dict[str, int] = {}
         """How often each robot was told to stand still: what is being weighed then is not done."""
@@ -77,10 +80,12 @@ class Ordering:
         self._plans.say(target, orders.NOTHING_DONE, "error")
 
     def _on_chat_action(self, order: ChatAction) -> None:
-        targets = self._plans.targets(order, "chat_action")
-        self._commands.remember(order, targets)
         commands = orders.of_plans(order)
         halting = [item for item in commands if EFFECT_OF[item.command] is Effect.PAUSE]
+        if not self._presses.counts(order.press, ",".join(order.targets), harmless=bool(halting)):
+            return
+        targets = self._plans.targets(order, "chat_action")
+        self._commands.remember(order, targets)
         for target in targets:
             if halting:  # waits for nothing, not even for what is being weighed
                 self._weighing[target] = self._weighing.get(target, 0) + 1

@@ -16,6 +16,7 @@ from parley.agents.planner.commands import Commands
 from parley.agents.planner.decisions import Decisions
 from parley.agents.planner.offers import Offers
 from parley.agents.planner.ordering import BeginFor, Judge, Ordering
+from parley.agents.planner.presses import Presses
 from parley.agents.planner.proposal_log import ProposalLog
 from parley.agents.planner.proposing import Proposals
 from parley.agents.planner.relay import Relay
@@ -87,8 +88,11 @@ class UmrfPlanner(Node):
         waiting = Proposals(self, self._plans)
         self._relay = Relay(self._plans, waiting)
         commands = self._commands = Commands(self, self._plans, self._relay, begin_for)
-        self._orders = Ordering(self, self._plans, waiting, commands, judge)
-        self._decisions = Decisions(self, self._plans, waiting, commands, self._orders, begin_for)
+        self._presses = Presses(self, self._plans)
+        self._orders = Ordering(self, self._plans, waiting, commands, judge, self._presses)
+        self._decisions = Decisions(
+            self, self._plans, waiting, commands, self._orders, begin_for, self._presses
+        )
         self.restore, self.adopt = self._plans.restore, self._plans.adopt
         self.met, self.offer_again = self._plans.met, self._plans.offer_again
 
@@ -99,6 +103,7 @@ class UmrfPlanner(Node):
         await self._plans.open()
         await self._orders.open()
         await self._decisions.open()
+        self._presses.open()
         await self.subscribe(topics.STOP, StopCommand, self._on_emergency)
         await self.subscribe(topics.REJECTION, Rejection, self._on_rejection)
         await self.subscribe(topics.GRAPH_EVENTS, GraphEvent, self._on_event)

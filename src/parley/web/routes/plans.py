@@ -57,10 +57,11 @@ async def post_command(robot: Robot, post: PlanCommandPost, web: Web, who: Who) 
     if post.command == "pop" and post.index is None:
         raise WebProblem(422, "It is not said which step.", "Say which step to drop.", path="index")
     arguments: dict[str, Any] = {"parameters": post.index} if post.command == "pop" else {}
-    if post.command == "skip" and post.step:
-        arguments["step"] = post.step
+    step = web.state.plans.planned(name, post.index) if post.index is not None else post.step
+    if post.command in ("skip", "pop") and step:
+        arguments["step"] = step
     command = SystemCommand(command=_COMMANDS[post.command], arguments=arguments)
-    web.link.send(ChatAction(system_cmd=(command,), targets=(name,), by=who.by))
+    web.press(ChatAction(system_cmd=(command,), targets=(name,), by=who.by))
     return Done()
 
 
@@ -80,13 +81,13 @@ async def post_decision(robot: Robot, post: DecisionPost, web: Web, who: Who) ->
     )
     if proposal is None or proposal.robot != name or post.id in web.state.plans.decided:
         if post.decision == "reject":
-            web.link.send(decision)  # somebody's yes was quicker: what it has begun is stopped
+            web.press(decision)  # somebody's yes was quicker: what it has begun is stopped
         raise WebProblem(409, "This plan is no longer waiting for an answer.", path="id")
     if post.decision == "approve" and post.digest != proposal.digest:
         raise WebProblem(
             409, "This is not the plan that waits for a yes.", "Look at it and decide again.", path="digest"
         )
-    web.link.send(decision)
+    web.press(decision)
     return Done()
 
 
@@ -108,7 +109,5 @@ async def put_steps(robot: Robot, put: StepsPut, web: Web, who: Who) -> Done:
         raise WebProblem(
             409, "The plan has changed meanwhile.", "Look at it and change it again.", path="revision"
         )
-    web.link.send(
-        PlanDecision(target=name, decision="edit", steps=put.steps, revision=put.revision, by=who.by)
-    )
+    web.press(PlanDecision(target=name, decision="edit", steps=put.steps, revision=put.revision, by=who.by))
     return Done()

@@ -1,0 +1,129 @@
+"""Buttons: sent again until the planner has them, never behind what came later, and told of if it has not."""
+
+from __future__ import annotations
+
+import pytest
+
+from parley.messages import topics
+from parley.messages.chat import ActionCall, ChatRead, PressTaken
+from parley.messages.status import PlanProposal, PlanStep, PlanUpdate
+from parley.web import backend
+from tests.transport.backends import until
+from tests.web.rig import Rig, served
+
+
+async def planned(rig: Rig) -> None:
+    """Let a planner come that says what it takes, and propose something."""
+    rig.robots.tell(topics.PRESS_TAKEN, PressTaken(run="r1"))
+    steps = (ActionCall(name="GoTo"),)
+    rig.robots.tell(topics.PLAN, PlanProposal(id="p1", target="Ada", steps=steps, digest="d"))
+    await rig.heard()
+
+
+async def post(rig: Rig, what: str, **body: str) -> None:
+    answer = await rig.http.post(f"/api/plans/Ada/{what}", json=body)
+    assert answer.status_code == 200, answer.text
+
+
+async def test_a_button_is_sent_again_as_it_was_until_the_planner_has_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(backend, "AGAIN_S", 0.02)
+    async with served("Ada") as rig:
+        await planned(rig)
+        await post(rig, "command", command="pause")
+        await until(lambda: len(rig.robots.orders) > 2)
+        (press,) = {order.press for order in rig.robots.orders}
+        assert press is not None and press.to == "r1"
+        rig.robots.tell(topics.PRESS_TAKEN, PressTaken(run="r1", id=press.id))
+        await until(lambda: not rig.server.backend._unread)
+
+
+async def test_a_planner_of_another_make_gets_a_button_once() -> None:
+    async with served("Ada") as rig:
+        await post(rig, "command", command="pause")
+        await rig.heard()
+        assert [order.press for order in rig.robots.orders] == [None]
+        assert not rig.server.backend._unread
+
+
+async def test_what_was_pressed_before_something_else_is_not_sent_again(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(backend, "AGAIN_S", 0.02)
+    async with served("Ada", "Bob") as rig:
+        await planned(rig)
+        await post(rig, "decision", id="p1", decision="approve", digest="d")
+        await rig.http.post("/api/plans/Bob/command", json={"command": "resume"})
+        await until(lambda: len(rig.robots.decisions) > 1)
+        await post(rig, "command", command="clear")
+        await rig.heard()
+        yes = len(rig.robots.decisions)
+        await until(lambda: sum(order.targets == ("Ada",) for order in rig.robots.orders) > 3)
+        assert len(rig.robots.decisions) == yes
+        numbers = {order.targets: order.press.number for order in rig.robots.orders if order.press}
+        assert rig.robots.decisions[0].press is not None
+        assert rig.robots.decisions[0].press.number < numbers["Bob",] < numbers["Ada",]
+        others = sum(order.targets == ("Bob",) for order in rig.robots.orders)
+        await until(lambda: sum(order.targets == ("Bob",) for order in rig.robots.orders) > others)
+
+
+@pytest.mark.parametrize("halting", ["pause", "clear", "stop"])
+async def test_what_was_said_before_a_halt_is_not_said_again_after_it(
+    monkeypatch: pytest.MonkeyPatch, halting: str
+) -> None:
+    monkeypatch.setattr(backend, "AGAIN_S", 0.02)
+    async with served("Ada") as rig:
+        rig.robots.tell(topics.CHAT_READ, ChatRead())
+        await planned(rig)
+        await rig.http.post("/api/chat", json={"id": "m1", "text": "go home", "targets": ["Ada"]})
+        await until(lambda: len(rig.robots.inputs) > 1)
+        if halting == "stop":
+            await rig.http.post("/api/stop", json={"command": "stop", "targets": ["Ada"]})
+            await until(lambda: rig.robots.stops)
+        await post(rig, "command", command="resume" if halting == "stop" else halting)
+        await rig.heard()
+        said = len(rig.robots.inputs)
+        await until(lambda: len(rig.robots.orders) > 3)
+        assert len(rig.robots.inputs) == said
+
+
+async def test_a_button_that_the_planner_does_not_take_is_told_of_and_can_be_pressed_again(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(backend, "PRESSED_WITHIN_S", 0.1)
+    async with served("Ada") as rig:
+        page = await rig.page()
+        await planned(rig)
+        for decision in ("approve", "reject"):
+            await post(rig, "decision", id="p1", decision=decision, digest="d")
+            await until(lambda: not rig.server.backend._unread)
+        await page.until(lambda: len(page.of("chat")) == 2)
+        assert "planning does not answer" in page.of("chat")[0]["entry"]["message"]
+        rig.robots.tell(topics.PLAN, PlanUpdate(target="Ada", graph_name="g", state="running", waits=()))
+        await page.until(lambda: page.of("proposal_gone"))
+
+
+async def test_a_step_is_dropped_by_what_it_is_called_and_not_by_its_place() -> None:
+    async with served("Ada") as rig:
+        look = ActionCall(name="Look")
+        steps = (
+            PlanStep(action=look, id="s1", state="finished"),
+            PlanStep(action=look, id="s2", state="running"),
+            PlanStep(action=look, id="s3"),
+        )
+        rig.robots.tell(topics.PLAN, PlanUpdate(target="Ada", graph_name="g", state="running", steps=steps))
+        await rig.heard()
+        await rig.http.post("/api/plans/Ada/command", json={"command": "pop", "index": 1})
+        await rig.heard()
+        assert rig.robots.orders[0].system_cmd[0].arguments["step"] == "s3"
+
+
+async def test_a_planner_that_was_started_anew_is_told_when_people_want_to_be_asked() -> None:
+    async with served("Ada") as rig:
+        await planned(rig)
+        await rig.http.put("/api/plans/Ada/policy", json={"policy": "ask_first"})
+        await rig.heard()
+        rig.robots.tell(topics.PRESS_TAKEN, PressTaken(run="r2"))
+        await until(lambda: len(rig.robots.decisions) > 1)
+        assert {(d.decision, d.policy) for d in rig.robots.decisions} == {("policy", "ask_first")}
