@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import pytest
 
 from parley.agents.audit_log import AuditLog
-from parley.clock import WallClock
+from parley.clock import Clock, WallClock
 from parley.gate.audit_store import AuditStore
 from parley.gate.audit_text import told, who_of
 from parley.gate.heard import labels
@@ -22,6 +22,7 @@ from parley.messages.principal import Principal, person
 from parley.messages.pvf import Parameter
 from parley.messages.ros import ChatRequest
 from parley.messages.status import (
+    ActorStatus,
     GraphEvent,
     PlanDecision,
     PlanProposal,
@@ -34,6 +35,7 @@ from parley.messages.status import (
 from parley.messages.topics import Topic
 from parley.messages.wire import decode, encode, to_string
 from parley.transport.local import LocalTransport
+from tests.web.rig import HandClock
 
 KIM = person("Kim", device="phone")
 ENGINE = Principal(kind="engine", name="builtin")
@@ -65,7 +67,7 @@ class Rig:
 
 
 @asynccontextmanager
-async def rig(waiting: int = 100) -> AsyncIterator[Rig]:
+async def rig(waiting: int = 100, clock: Clock | None = None) -> AsyncIterator[Rig]:
     trouble, said = asyncio.Event(), list[str]()
 
     def tell(text: str) -> None:
@@ -75,7 +77,7 @@ async def rig(waiting: int = 100) -> AsyncIterator[Rig]:
     async with (
         LocalTransport() as transport,
         await AuditStore.open(":memory:", WallClock()) as store,
-        AuditLog(transport, store, WallClock(), tell=tell, retry_s=0.001, waiting=waiting) as node,
+        AuditLog(transport, store, clock or WallClock(), tell=tell, retry_s=0.001, waiting=waiting) as node,
     ):
         yield Rig(transport, store, node, trouble, said)
 
@@ -230,6 +232,18 @@ async def test_what_came_faster_than_it_was_heard_is_written_down_as_a_gap_and_t
         (gap,) = await r.log(effect="gap")
         assert gap.detail["dropped"] == 5
         assert r.told == ["Entries missing in the log of who did what: 5."]
+
+
+async def test_that_nothing_was_heard_of_a_robot_is_written_down_once_it_is_heard_again() -> None:
+    clock = HandClock()
+    async with rig(clock=clock) as r:
+        for ahead_s, state in ((0, "idle"), (5, "idle"), (47, "idle"), (48, "leaving"), (99, "idle")):
+            clock.ahead_s = ahead_s
+            await r.tell(topics.ACTOR_STATUS, ActorStatus.model_validate({"actor": "Ada", "state": state}))
+            await r.log()
+        (gap,) = await r.log(effect="gap")
+        assert gap.detail["until_unix_ms"] - gap.detail["since_unix_ms"] == 42_000
+        assert str(told(gap)) == "Nothing had been heard of Ada for 42 s."
 
 
 @pytest.mark.parametrize(

@@ -26,7 +26,7 @@ from parley.messages.audit import AuditEvent, AuditList, GetAudit
 from parley.messages.chat import ChatAction, ChatInput
 from parley.messages.memory import AddToMemory, MemoryEvent
 from parley.messages.ros import ChatRequest, ChatResponse, String
-from parley.messages.status import GraphEvent, PlanDecision, Rejection, StopCommand, StopReport
+from parley.messages.status import ActorStatus, GraphEvent, PlanDecision, Rejection, StopCommand, StopReport
 from parley.messages.topics import Topic
 from parley.messages.wire import decode, decode_plan, encode
 from parley.sentences import sentence
@@ -94,6 +94,9 @@ class AuditLog(Node):
         await self._listen(topics.PLAN, decode_plan, heard.on_plan)
         await self._hear(topics.PLAN_DECISION, PlanDecision, heard.on_decision)
         await self._hear(topics.GRAPH_EVENTS, GraphEvent, heard.on_graph)
+        await self._hear(
+            topics.ACTOR_STATUS, ActorStatus, lambda told: heard.on_status(told, self._clock.unix_ms())
+        )
         await self._hear(topics.STOP, StopCommand, heard.on_stop)
         await self._hear(topics.STOP_REPORT, StopReport, heard.on_report)
         await self._hear(topics.ADD_TO_MEMORY, AddToMemory, heard.on_add)

@@ -159,6 +159,9 @@ def _special(event: AuditEvent) -> Sentence | None:
         return _ended(event)
     if event.effect == "gap" and "dropped" in detail:
         return sentence("{count} entries could not be written", count=detail["dropped"])
+    if event.effect == "gap" and "until_unix_ms" in detail:
+        silent_s = round((detail["until_unix_ms"] - detail["since_unix_ms"]) / 1000)
+        return sentence("Nothing had been heard of {robot} for {seconds} s", robot=robot, seconds=silent_s)
     if event.effect in ("remember", "forget") and event.by is None and "command" not in detail:
         remembered = sentence("Remembered: {what}", what=what_of(detail))
         return (

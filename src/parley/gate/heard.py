@@ -18,6 +18,7 @@ from parley.messages.chat import ActionCall, ChatAction, ChatInput, Press
 from parley.messages.memory import AddToMemory, MemoryEvent
 from parley.messages.principal import Principal
 from parley.messages.status import (
+    ActorStatus,
     GraphEvent,
     PlanDecision,
     PlanProposal,
@@ -37,6 +38,8 @@ _REFUSED: Final = {
     "/parley/plan_decision": Effect.APPROVE,
     "/parley/stop": Effect.STOP, "add_to_memory": Effect.REMEMBER, "remove_memory": Effect.FORGET,
 }  # fmt: skip
+SILENT_MS: Final = 5000
+"""A robot tells how it fares every second; after so long without a word something may have been missed."""
 _ENDS: Final = {"FINISHED": "done", "STOPPED": "done", "ERROR": "failed"}
 
 
@@ -55,6 +58,7 @@ class Heard:
         self._memories: Latest[str, tuple[Principal | None, str]] = Latest()
         self._stops: Latest[str, StopCommand] = Latest()
         self._presses: Latest[str, None] = Latest()
+        self._beats: Latest[str, int] = Latest()
 
     def _is_repeat(self, press: Press | None) -> bool:
         """Whether a button's press was heard before: it is sent until somebody takes it."""
@@ -151,6 +155,16 @@ class Heard:
                 outcome="done" if allowed else "asked",
             )
         ]  # fmt: skip
+
+    def on_status(self, status: ActorStatus, unix_ms: int) -> list[AuditEvent]:
+        """A robot is heard of: if that is after a silence, what it did meanwhile is not known."""
+        before = self._beats.pop(status.actor, unix_ms)
+        if status.state != "leaving":
+            self._beats[status.actor] = unix_ms
+        if unix_ms - before <= SILENT_MS:
+            return []
+        silence = {"since_unix_ms": before, "until_unix_ms": unix_ms}
+        return [AuditEvent(effect="gap", robot=status.actor, outcome="failed", detail=silence)]
 
     def on_graph(self, event: GraphEvent) -> list[AuditEvent]:
         """A robot begins and ends what it was told to do."""
