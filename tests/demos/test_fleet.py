@@ -265,6 +265,26 @@ async def test_what_a_robot_leaves_undone_is_offered_to_the_best_of_the_others()
         assert home.distance_m("area_a", taker) < 1.6
 
 
+async def test_what_one_finds_the_other_is_asked_to_look_for_no_longer() -> None:
+    words = "Leo, look for the red crate in Area A. Spot, look for the red crate in Area C."
+    async with hall() as home:
+        await told(home, words, *ROBOTS)
+
+        def offers() -> list[ChatFeedback]:
+            return [said for said in home.observer.said if "has found “red crate”" in said.message]
+
+        await home.observer.until(lambda: bool(offers()), timeout_s=PATIENCE_S)
+        (offer,) = offers()
+        assert offer.targets == ("Leo",)
+        assert offer.message.startswith("I ask first: Spot has found “red crate”.")
+        assert offer.message.endswith("Shall I?")
+        assert home.observer.state("Leo") == "running", "it goes on until somebody says yes"
+        await home.say("yes", "Leo")
+        await home.state("idle", "Leo")
+        looked = [step for step in home.observer.plans["Leo"].steps if step.action.name == "Inspect"]
+        assert all(step.state != "finished" for step in looked)
+
+
 @pytest.mark.parametrize(("variant", "reason"), [("other_words", ""), ("no_area", "other_reply")])
 async def test_story_holds_and_breaks_where_the_world_makes_it(
     tmp_path: Path, variant: str, reason: str

@@ -12,7 +12,14 @@ import unicodedata
 from collections.abc import Iterable
 from typing import Final
 
-__all__ = ["is_about", "is_said", "speaks_of_all", "speaks_of_change", "speaks_of_forgetting"]
+__all__ = [
+    "is_about",
+    "is_said",
+    "speaks_of_all",
+    "speaks_of_change",
+    "speaks_of_forgetting",
+    "speaks_of_searching",
+]
 
 _CHANGE: Final = re.compile(
     r"\b(?:cancel|abort|scrap|drop|skip|leave|omit|remove|delete|forget|discard|abandon|ditch|undo|"
@@ -23,6 +30,11 @@ _CHANGE: Final = re.compile(
     r"first|before|next|but|wait|call\s+off|get\s+rid|mind|mean|meant|correction|sorry|unless|until|done|"
     r"jäta|tühista|loobu|ära|mitte|ei|pole|asemel|hoopis|unusta|kustuta|muuda|teine|lõpeta|välja|ainult|"
     r"vahele|vale)\b",
+    re.IGNORECASE,
+)
+_SEARCHING: Final = re.compile(
+    r"\b(?:look(?:s|ing)?\s+(?:\w+\s+)?for|finds?|finding|search\w*|seeks?|hunts?|locates?|"
+    r"otsi\w*|leia\w*)\b",
     re.IGNORECASE,
 )
 _FORGETTING: Final = re.compile(
@@ -57,6 +69,11 @@ _SAID_SHARE: Final = 0.6
 def speaks_of_change(words: str) -> bool:
     """Whether somebody speaks of leaving out, giving up or exchanging something."""
     return _CHANGE.search(words) is not None
+
+
+def speaks_of_searching(words: str) -> bool:
+    """Whether somebody wants something found, which is over once it is."""
+    return _SEARCHING.search(words) is not None
 
 
 def speaks_of_forgetting(words: str) -> bool:

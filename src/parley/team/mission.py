@@ -145,6 +145,13 @@ class MissionBook:
                 return [part for part in going if part.robot != robot]
         return []
 
+    def of(self, order: str) -> MissionInfo | None:
+        """The mission of which an order is a part."""
+        for mission in self._missions.values():
+            if order and any(part.info.order == order for part in mission.parts):
+                return mission.shown
+        return None
+
     def refuse(self, order: str) -> None:
         """A part is not done at all."""
         for part in self._of(order):

@@ -14,7 +14,8 @@ from parley.team.outlook import Outlook, Task
 
 __all__ = ["alike", "left_of", "place_of", "shared", "tasks_of", "why"]
 
-_OVER: Final = ("finished", "skipped", "stopped")
+OVER: Final = ("finished", "skipped", "stopped")
+"""States of a step that is over and not to be done again."""
 WEAK: Final = 0.15
 """With less battery than this a robot is given something only if nobody else can do it."""
 
@@ -37,12 +38,12 @@ def left_of(steps: Sequence[PlanStep], catalogue: Sequence[ActionInfo]) -> list[
     """The tasks of a plan that are not over, each from its beginning, as somebody else would do it."""
     tasks = tasks_of([step.action for step in steps], catalogue)
     if len(tasks) == 1:
-        return [_unfilled(tasks[0])] if any(step.state not in _OVER for step in steps) else []
+        return [_unfilled(tasks[0])] if any(step.state not in OVER for step in steps) else []
     found: list[Task] = []
     at = 0
     for task in tasks:
         own, at = steps[at : at + len(task)], at + len(task)
-        if any(step.state not in _OVER for step in own):
+        if any(step.state not in OVER for step in own):
             found.append(_unfilled(task))
     return found
 

@@ -13,6 +13,7 @@ from typing import ClassVar, Final
 from parley.agents.base import Mailboxes, Node
 from parley.agents.chat import texts as texts
 from parley.agents.chat.answering import Answering
+from parley.agents.chat.finds import Finds
 from parley.agents.chat.finishing import Finishing
 from parley.agents.chat.holds import Holds
 from parley.agents.chat.log_answers import log_answer
@@ -153,6 +154,7 @@ class ChatInterface(Node):
         self._missions = Missions(
             self, talk, self._answering, self._known, self._presence, self._board, language.label
         )
+        self._finds = Finds(self, self._answering, self._known, self._board, language.label)
 
     async def open(self) -> None:
         """See `Node.open`."""
@@ -169,6 +171,7 @@ class ChatInterface(Node):
         await self.subscribe(topics.PLAN_DECISION, PlanDecision, self._on_decision)
         await self._answering.open()
         await self._board.open()
+        await self._finds.open()
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input, in_charge=True)
         self.publish(topics.CHAT_READ, ChatRead())
         self.spawn(self._presence.watch(), name="presence")
@@ -502,6 +505,7 @@ class ChatInterface(Node):
         self._holds.on_update(told)
         self._missions.on_plan(told)
         self._board.on_plan(told)
+        self._finds.on_plan(told)
         status = self._presence.get(told.target)
         if done := self._finishing.on_update(told, status.catalogue if status else ()):
             self._say((told.target,), done, "info")

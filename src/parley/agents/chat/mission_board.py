@@ -48,6 +48,10 @@ class MissionBoard:
         self._book.begin(info)
         self._show()
 
+    def of(self, order: str) -> MissionInfo | None:
+        """See `MissionBook.of`."""
+        return self._book.of(order)
+
     def relieve(self, robot: str, others: tuple[MissionPart, ...]) -> bool:
         """See `MissionBook.relieve`."""
         found = self._book.relieve(robot, others)
