@@ -218,6 +218,12 @@ async def test_an_open_engine_has_loaded_what_its_first_message_needs() -> None:
         ("I am really tired go to the desk", [("GO", ["desk"])]),
         ("go to the glue desk", [("GO", ["desk"])]),
         ("I am not at the desk go to the office", []),
+        (
+            "visit the desk, the lamp and the office in that order",
+            [("GO", ["desk"]), ("GO", ["lamp"]), ("GO", ["office"])],
+        ),
+        ("head to the desk, and from there to the office", [("GO", ["desk"]), ("GO", ["office"])]),
+        ("start at the desk and finish at the office", [("GO", ["desk"]), ("GO", ["office"])]),
         ("go past the desk to the office", [("GO", ["office"])]),
         ("go through the office to the desk by the lamp", [("GO", ["desk"])]),
     ],

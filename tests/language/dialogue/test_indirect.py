@@ -45,6 +45,8 @@ def test_what_only_looks_like_one_is_not_done(said: str) -> None:
     assert not isinstance(ENGINE.decide(situation(said)), Do)
 
 
-@pytest.mark.parametrize(("typed", "frame"), [("moev", "GO"), ("tunr", "TURN"), ("stnad", "WAIT"), ("lamp", ""), ("form", "")])
+@pytest.mark.parametrize(
+    ("typed", "frame"), [("moev", "GO"), ("tunr", "TURN"), ("stnad", "WAIT"), ("lamp", ""), ("form", "")]
+)
 def test_two_letters_the_wrong_way_round_are_one_verb(typed: str, frame: str) -> None:
     assert (frame in lexicon().exactly([typed])) if frame else not lexicon().exactly([typed])

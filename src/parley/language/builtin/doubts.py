@@ -43,7 +43,7 @@ def doubt(
     if reading.acts & ({"alarm", "question", "control"} | (set() if idle else {"edit"})):
         return Ask("I am not sure what you want me to do. Can you say one thing at a time?")
     if reading.unsteady:
-        what = " ".join(reading.unsteady)
+        what = " ".join(dict.fromkeys(" ".join(reading.unsteady).split()))
         return Ask(f"I am not sure what you mean by “{what}”. Can you say it in other words?")
     for wish in orders:
         least = AGREED if wish.witness == "agrees" else ALONE

@@ -18,6 +18,9 @@ _AT = frozenset(
     {"on", "in", "at", "near", "by", "under", "beside", "next", "behind", "inside", "from", "off"}
 )
 """Prepositions that say where something is, and not where to."""
+_JOINED = 2
+"""So many marks and words at most stand between what is listed: ", and"."""
+_FROM_THERE = frozenset({"from", "there", "here", "on"})
 _TAKING = frozenset({"take", "grab", "pick", "collect", "lift"})
 
 
@@ -30,8 +33,10 @@ def retyped(wish: Wish, lexicon: Lexicon) -> Wish:
     if wish.frame == "GUIDE" and not wish.has("T"):
         return _renamed(wish, "R", "T", list(wish.all("R")))
     if wish.frame == "GO":
-        wish = wish if wish.has("G") else _renamed(wish, "T", "G", [*wish.all("T")])
-        return _gone(wish)
+        listed = [f for f in wish.all("T") if any(0 <= f.start - g.end <= _JOINED for g in wish.all("G"))]
+        wish = _renamed(wish, "T", "G", listed if wish.has("G") else [*wish.all("T")])
+        here = [f for f in wish.all("S") if {*f.words} <= _FROM_THERE]  # that is where it is then
+        return _gone(replace(wish, fillers=tuple(f for f in wish.fillers if f not in here)))
     if wish.frame == "TURN" and not wish.has("N"):
         direction = next((direction_of(filler.words, lexicon) for filler in wish.all("H")), None)
         return replace(wish, frame="FACE") if wish.has("TG") or is_compass(direction or "") else wish
