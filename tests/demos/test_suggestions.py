@@ -7,6 +7,7 @@ from collections import defaultdict
 import pytest
 
 from parley.actions.builtin import BUILTIN_ACTIONS
+from parley.config import SystemConfig
 from parley.demos.catalogue import DEMOS, load_demo
 from parley.language.base import Situation
 from parley.language.builtin.decision import Answer, Ask, Decision, Do
@@ -32,6 +33,20 @@ def test_what_a_demonstration_suggests_is_done_or_answered(demo: str, example: s
     orders = [part.order for part in wish.parts] or [f"go to {wish.about}"] if wish else [example]
     for order in orders:
         assert isinstance(decided(demo, order), Answer if order.startswith("What") else Do)
+
+
+@pytest.mark.parametrize("demo", DEMOS)
+def test_what_is_played_on_a_page_leaves_every_yes_to_the_person(demo: str) -> None:
+    played = load_demo(demo)
+    assert played.tour
+    assert not [text for text in played.tour if text.lower().startswith(("yes", "ok"))]
+
+
+def test_a_demonstration_whose_story_asks_first_does_so_wherever_nobody_said_otherwise() -> None:
+    parking, warehouse = load_demo("parking"), load_demo("warehouse")
+    assert parking.settled(SystemConfig(speed=2.0)).approval == "ask_first"
+    assert parking.settled(SystemConfig(approval="run_at_once")).approval == "run_at_once"
+    assert warehouse.settled(SystemConfig()).approval == "run_at_once"
 
 
 @pytest.mark.parametrize("demo", DEMOS)

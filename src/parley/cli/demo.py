@@ -110,6 +110,7 @@ def command(
         raise typer.Exit(on_loop(played))
     if story is not None or variant:
         raise ConfigError("a story file and --variant go with --script")
+    chosen = loaded.settled(chosen)
     folder = data or chosen.data_dir or data_folder(loaded.folder_name)
     chosen = chosen.changed({"data_dir": folder} | ({} if speed is None else {"speed": speed}))
     if terminal:
@@ -202,4 +203,6 @@ async def _serve(
     ):
         if system.store is not None and system.store.notice:
             typer.echo(system.store.notice)
+        if system.simulator is not None:  # the robots are not told
+            system.simulator.on_event = lambda event: typer.echo(f"Meanwhile: {event.name}.")
         await serve_until_interrupted(server, opens=opens)

@@ -51,7 +51,18 @@ class Demo:
     @property
     def tour(self) -> tuple[str, ...]:
         """What the operator of the story says of their own accord; whoever is shown it answers."""
-        return tuple(step.say for step in self.told.steps if step.say) if self.told is not None else ()
+        steps = self.told.steps if self.told is not None else ()
+        before = (None, *steps)
+        return tuple(
+            step.say
+            for earlier, step in zip(before, steps, strict=False)
+            if step.say and not (earlier and earlier.proposed)  # a yes is theirs
+        )
+
+    def settled(self, config: SystemConfig) -> SystemConfig:
+        """Settings that ask before plans begin where its story does and nothing else was set."""
+        asks = self.told is not None and self.told.ask_first and "approval" not in config.model_fields_set
+        return config.changed({"approval": "ask_first"}) if asks else config
 
     @property
     def examples(self) -> tuple[str, ...]:
