@@ -13,6 +13,8 @@ def test_what_would_be_done_is_said_step_by_step() -> None:
     told = wish_of(["Go to the box.", "Look"], "it is far")
     assert told == "I ask first: it is far. This is what I would do: 1. Go to the box, 2. Look."
     assert begun(["Go to the box", "Look"]) == "All right: 1. Go to the box, 2. Look."
+    assert begun(["A", "B", "C", "D"]) == "All right: 1. A, 2. B, 3. C, 4. D."
+    assert begun(["A", "B", "C", "D", "E"]) == "All right: 1. A, 2. B, 3. C and 2 more."
 
 
 def said(text: str) -> ChatInput:

@@ -37,6 +37,8 @@ _REPAIR_LEFT: Final = sentence(
     "things may have changed since, so please look at it again."
 )
 
+_TOLD: Final = 3
+"""So many steps of many are said once more when they begin."""
 _MOVED_M: Final = 0.5
 """Farther from where it was, a robot counts as being somewhere else."""
 
@@ -53,8 +55,11 @@ def wish_of(lines: Sequence[str], why: str = "") -> str:
 
 
 def begun(lines: Sequence[str]) -> str:
-    """What a yes starts, said when it was given."""
-    return sentence("All right: {steps}.", steps=counted(lines))
+    """What a yes starts, said when it was given: of many steps, which were just read, the first ones."""
+    if len(lines) <= _TOLD + 1:
+        return sentence("All right: {steps}.", steps=counted(lines))
+    steps = sentence("{first} and {count} more", first=counted(lines[:_TOLD]), count=len(lines) - _TOLD)
+    return sentence("All right: {steps}.", steps=steps)
 
 
 def counted(lines: Sequence[str]) -> str:
