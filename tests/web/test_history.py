@@ -7,10 +7,12 @@ from contextlib import asynccontextmanager
 from typing import Any
 
 from parley.agents.audit_log import AuditLog
+from parley.errors import FailureCode
 from parley.gate.audit_store import AuditStore
 from parley.messages import topics
 from parley.messages.audit import AuditEntry
 from parley.messages.chat import ActionCall, ChatAction, ChatInput
+from parley.messages.incident import Incident
 from parley.messages.principal import person
 from parley.messages.status import GraphEvent, PlanUpdate, StopCommand
 from parley.web.round_file import round_file
@@ -129,3 +131,21 @@ async def test_what_was_left_out_is_not_told_as_done() -> None:
         assert (found["state"], found["left"]) == ("partly", ["look at the door"])  # the box came later
         file = (await rig.http.get(f"/api/history/file?number={found['number']}")).text
         assert "It was done in part." in file and "<dt>Left out</dt><dd>look at the door</dd>" in file
+
+
+async def test_what_a_robot_came_upon_stands_with_the_round_and_with_no_other() -> None:
+    async with logged() as rig:
+        await order(rig, "one", "look at the boxes", BEGAN_MS)
+        seen = {"robot": "Ada", "graph_name": "one", "step": LOOK}
+        bag = Incident(id="1", code=FailureCode.ATTENTION, message="I can see a <bag>.", **seen)
+        hidden = Incident(id="2", code=FailureCode.NO_MATCH, message="I cannot see the box.", **seen)
+        rig.robots.tell(topics.INCIDENT, bag)
+        rig.robots.tell(topics.INCIDENT, hidden)
+        rig.robots.tell(topics.INCIDENT, bag.model_copy(update={"id": "3", "robot": "Bob"}))
+        graph(rig, "one", "FINISHED", BEGAN_MS + 5000)
+        await order(rig, "two", "look at the door", BEGAN_MS + 10_000)
+        await rig.heard()
+        second, first = (await rig.http.get("/api/history")).json()["rounds"]
+        assert (first["found"], second["found"]) == (["I can see a <bag>."], [])
+        file = (await rig.http.get(f"/api/history/file?number={first['number']}")).text
+        assert "<dt>Found</dt><dd>I can see a &lt;bag&gt;.</dd>" in file

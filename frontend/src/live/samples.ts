@@ -93,6 +93,7 @@ export const round = (part: Partial<RoundView> & { number: number }): RoundView 
   left: [],
   steps: ['Go to “box”'],
   reason: '',
+  found: [],
   pictures: [],
   ...part,
 });

@@ -362,6 +362,8 @@ class RoundView(WebModel):
     """Those of them that were left out."""
     reason: str = ""
     """Why it failed."""
+    found: tuple[str, ...] = ()
+    """What it came upon that needed a person, in the words in which it was told."""
     pictures: tuple[str, ...] = ()
     """Addresses of what the robot took pictures of meanwhile, below this server."""
 

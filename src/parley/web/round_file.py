@@ -55,6 +55,7 @@ def round_file(
         (sentence("Began"), f"{day:%Y-%m-%d %H:%M:%S}"),
         (sentence("Ended"), _clock(told.ended_unix_ms)),
         (sentence("How it ended"), f"{ours(sentence(_STATES[told.state]))} {ours(told.reason)}".strip()),
+        (sentence("Found"), "<br>".join(escape(text) for text in told.found)),
         (sentence("Left out"), "; ".join(ours(step) for step in told.left)),
     ]
     rows = "".join(f"<dt>{ours(name)}</dt><dd>{value}</dd>" for name, value in facts if value)

@@ -10,8 +10,10 @@ from typing import Any, Final
 
 from pydantic import ValidationError
 
+from parley.errors import FailureCode
 from parley.gate.audit_text import told, who_of
 from parley.messages.audit import AuditEntry
+from parley.messages.incident import Incident
 from parley.messages.principal import Principal
 from parley.sentences import SpokenLanguage, in_language, sentence
 from parley.web.models import RoundState, RoundView
@@ -28,6 +30,7 @@ def rounds_of(
     starts: Sequence[AuditEntry],
     ends: Iterable[AuditEntry],
     running: frozenset[Graph],
+    incidents: Sequence[Incident] = (),
     language: SpokenLanguage = "en",
 ) -> list[RoundView]:
     """Every beginning with its end.
@@ -36,10 +39,19 @@ def rounds_of(
         starts: Entries of the log with which robots began.
         ends: Entries with which they came to an end.
         running: What robots do just now; of what has no end and does not run, the end was never heard.
+        incidents: What went wrong or needed a person, newest first.
         language: Of who it was.
     """
     ended = {_graph(entry): entry for entry in ends}
-    return [_round(entry, ended.get(_graph(entry)), _graph(entry) in running, language) for entry in starts]
+    rounds = [_round(entry, ended.get(_graph(entry)), _graph(entry) in running, language) for entry in starts]
+    found: dict[Graph, list[str]] = {}
+    for one in reversed(incidents):
+        if one.code is FailureCode.ATTENTION:
+            found.setdefault((one.robot, one.graph_name), []).append(in_language(one.message, language))
+    return [
+        view.model_copy(update={"found": tuple(dict.fromkeys(found.get(_graph(entry), ())))})
+        for entry, view in zip(starts, rounds, strict=True)
+    ]
 
 
 def waiting(state: WebState, robot: str, language: SpokenLanguage = "en") -> tuple[str, ...]:

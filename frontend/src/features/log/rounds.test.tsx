@@ -11,7 +11,7 @@ import { HistoryPage } from './history-page';
 
 let asked: Asked[];
 const lost = round({ number: 5, words: 'look at the door', state: 'unrecorded' });
-const looked = round({ number: 7, words: 'look at the box', state: 'failed', reason: 'It is hidden.', pictures: ['/api/chat/images/a'] });
+const looked = round({ number: 7, words: 'look at the box', state: 'failed', reason: 'It is hidden.', found: ['I can see a bag.'], pictures: ['/api/chat/images/a'] });
 
 beforeEach(() => {
   asked = [];
@@ -27,6 +27,7 @@ it('shows what robots did with what they saw, and takes an order up again withou
   const user = userEvent.setup();
   render(<HistoryPage />);
   await screen.findByText('It is hidden.');
+  screen.getByText('Found: I can see a bag.');
   screen.getByRole('img', { name: 'Picture 1 of “Look at the box”' });
   expect(screen.getByRole('link', { name: /pictures: Look at the box/ }).getAttribute('href')).toBe('/api/history/file?number=7&language=en');
   await user.type(screen.getByLabelText('Search'), 'box');
@@ -42,7 +43,8 @@ it('tells the next shift what failed, apart from what was done, and who stopped 
   await user.click(screen.getByRole('button', { name: 'Handover' }));
   const part = (name: string) => within(screen.getByRole('heading', { name }).closest('section') ?? document.body);
   await screen.findByRole('article');
-  part('Did not work, was ended early, or its end was not recorded').getByText(/Look at the box – It is hidden\./);
+  part('Did not work, was ended early, or its end was not recorded').getByText(/Look at the box – .*It is hidden\./);
+  part('Did not work, was ended early, or its end was not recorded').getByText('Found: I can see a bag.');
   part('Did not work, was ended early, or its end was not recorded').getByText(/Look at the door/);
   part('Done').getByText(/Kim \(phone\) to Ada: Go to the box – Left out: Look at the bed/);
   part('Stops').getByText(/Kim stopped Ada\./);

@@ -74,7 +74,7 @@ function Round({ round }: { round: RoundView }) {
   const now = useNow(MINUTE_MS);
   const steps = round.steps ?? [];
   const title = titleOf(round);
-  const { by, words, approved_by: yes, ended_unix_ms: ended = 0, left = [] } = round;
+  const { by, words, approved_by: yes, ended_unix_ms: ended = 0 } = round;
   return (
     <li className={css.round} data-state={round.state}>
       <p className={css.roundHead}>
@@ -86,8 +86,7 @@ function Round({ round }: { round: RoundView }) {
         <span>{by ? t('by', { who: by, robot: round.robot }) : round.robot}</span>
       </p>
       <h3>{title}</h3>
-      {round.reason && <p>{round.reason}</p>}
-      {left.length > 0 && <p>{t('left', { what: left.join('; ') })}</p>}
+      <Outcome round={round} />
       {yes && <p>{t('yes', { who: yes })}</p>}
       {steps.length > 0 && (
         <details>
@@ -112,6 +111,22 @@ function Round({ round }: { round: RoundView }) {
         </a>
       </div>
     </li>
+  );
+}
+
+function Outcome({ round }: { round: RoundView }) {
+  const { t } = useTranslation('log');
+  const { left = [], found = [] } = round;
+  return (
+    <>
+      {found.map((what) => (
+        <p key={what} className={css.found}>
+          <Icon name="bang" size={16} /> {t('found', { what })}
+        </p>
+      ))}
+      {round.reason && <p>{round.reason}</p>}
+      {left.length > 0 && <p>{t('left', { what: left.join('; ') })}</p>}
+    </>
   );
 }
 
@@ -151,10 +166,11 @@ export const titleOf = (round: RoundView) => sentence(round.words ?? '') || sent
 /** One round in one line, for those who come after. */
 export function RoundLine({ round }: { round: RoundView }) {
   const { t, i18n } = useTranslation('log');
-  const { by, left = [] } = round;
+  const { by, left = [], found = [] } = round;
   return (
     <li>
       <time>{clockTime(round.unix_ms, i18n.language)}</time> {by ? t('by', { who: by, robot: round.robot }) : round.robot}: {titleOf(round)}
+      {found.length > 0 && <> – <strong>{t('found', { what: found.join(' ') })}</strong></>}
       {round.reason && <> – {round.reason}</>}
       {left.length > 0 && <> – {t('left', { what: left.join('; ') })}</>}
     </li>

@@ -9,6 +9,7 @@ from starlette.responses import Response
 
 from parley.gate.table import Effect
 from parley.messages.audit import AuditEntry, GetAudit
+from parley.messages.incident import GetIncidents
 from parley.sentences import SpokenLanguage
 from parley.web.backend import Backend
 from parley.web.models import Handover, HistoryPage, RoundView
@@ -16,6 +17,7 @@ from parley.web.problems import WebProblem
 from parley.web.round_file import round_file
 from parley.web.rounds import rounds_of, running_graphs, told_lines, waiting
 from parley.web.routes.access import Web, may, module
+from parley.web.routes.incidents import ask_incidents
 from parley.web.routes.log import Moment, Part, ask_log
 
 __all__ = ["router"]
@@ -102,7 +104,8 @@ async def _rounds(web: Backend, wanted: GetAudit, language: SpokenLanguage) -> t
     ends = (await ask_log(web, GetAudit(effect="end", robot=wanted.robot, limit=_MOST + 1, **span))).entries
     complete = len(starts) < wanted.limit
     shown = starts if complete or wanted.limit == 1 else starts[:-1]
-    rounds = rounds_of(shown, ends, running_graphs(web.state), language)
+    incidents = (await ask_incidents(web, GetIncidents(robot=wanted.robot, limit=_MOST))).incidents
+    rounds = rounds_of(shown, ends, running_graphs(web.state), incidents, language)
     return [await _with_pictures(web, one) for one in rounds], complete
 
 

@@ -10,10 +10,11 @@ from parley.errors import UnavailableError
 from parley.gate.table import Effect
 from parley.messages import topics
 from parley.messages.incident import GetIncidents, Incident, IncidentList
+from parley.web.backend import Backend
 from parley.web.routes.access import Web, may, module
 from parley.web.showing import Reader, shown_in
 
-__all__ = ["router"]
+__all__ = ["ask_incidents", "router"]
 
 router = APIRouter(
     prefix="/incidents", tags=["incidents"], dependencies=[module("incidents"), may(Effect.SEE)]
@@ -28,9 +29,14 @@ async def get_incidents(
     limit: Annotated[int, Query(ge=1, le=1000)] = 100,
 ) -> list[Incident]:
     """Incidents, newest first; where nobody keeps them, those that this server heard of."""
-    try:
-        found = await web.link.ask(topics.GET_INCIDENTS, GetIncidents(robot=robot, limit=limit), IncidentList)
-    except UnavailableError:
-        heard = [item for item in web.state.incidents.values() if robot in ("", item.robot)]
-        found = IncidentList(incidents=tuple(heard[::-1][:limit]))
+    found = await ask_incidents(web, GetIncidents(robot=robot, limit=limit))
     return list(IncidentList.model_validate(shown_in(reader, found)).incidents)
+
+
+async def ask_incidents(web: Backend, wanted: GetIncidents) -> IncidentList:
+    """Ask whoever keeps them; where nobody does, those that this server heard of, newest first."""
+    try:
+        return await web.link.ask(topics.GET_INCIDENTS, wanted, IncidentList)
+    except UnavailableError:
+        heard = [item for item in web.state.incidents.values() if wanted.robot in ("", item.robot)]
+        return IncidentList(incidents=tuple(heard[::-1][: wanted.limit]))
