@@ -48,7 +48,7 @@ export interface Stage {
  * Start the system and the browser.
  * @throws Error The system did not serve its page in time; its output is in the message.
  */
-export async function startStage(options: readonly string[] = [], program: Program = 'demo'): Promise<Stage> {
+export async function startStage(options: readonly string[] = [], program: Program = 'nursing-home'): Promise<Stage> {
   const [system, browser] = await Promise.all([
     startSystem(program, options),
     chromium.launch({ executablePath: CHROMIUM, args: ARGUMENTS }),

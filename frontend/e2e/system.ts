@@ -4,8 +4,8 @@ import { mkdtemp, rm } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 
-/** `two-robots`: the demonstration with a second one. */
-export type Program = 'demo' | 'fleet' | 'two-robots';
+/** A demonstration of Parley; `two-robots`: one with a second robot. */
+export type Program = 'nursing-home' | 'parking' | 'warehouse' | 'fleet' | 'two-robots';
 
 export interface System {
   /** Where its page is, with a slash at the end. */
@@ -61,7 +61,7 @@ interface Running {
 function begin(program: Program, options: readonly string[]): Promise<Running> {
   const [command, ...first] =
     program !== 'two-robots'
-      ? [PARLEY, 'demo', program === 'fleet' ? 'fleet' : 'nursing-home', '--no-open']
+      ? [PARLEY, 'demo', program, '--no-open']
       : [join(dirname(PARLEY), 'python'), '-m', 'tests.web.e2e.two_robots'];
   const child = spawn(command ?? PARLEY, [...first, ...options], { cwd: resolve('..'), stdio: 'pipe' });
   return new Promise((settle, reject) => {
