@@ -255,6 +255,16 @@ async def test_what_was_listed_is_meant_by_its_name_later(listed: str) -> None:
     ]  # fmt: skip
     before = await ENGINE.interpret(situation("inspect each place of interest"))
     assert before.queue == ()
+    for text in ("inspect the places of interest except gate 3", "check all places of interest but gate 3"):
+        answer = await ENGINE.interpret(replace(situation(text), memory=(memory,)))
+        assert [step.input_parameters["target"].value for step in answer.queue[::3]] == ["gate 1", "pump"]
+
+
+@pytest.mark.parametrize("text", ["check only P and R", "just check P and R"])
+async def test_a_word_for_no_others_is_no_part_of_a_name(text: str) -> None:
+    bays = tuple(MapObject(f"bay_{name}", f"Bay {name}", float(at), 1.0) for at, name in enumerate("PQR"))
+    answer = await ENGINE.interpret(replace(situation(text), objects=bays))
+    assert [step.input_parameters["target"].value for step in answer.queue[::3]] == ["Bay P", "Bay R"]
 
 
 async def test_a_list_with_something_else_in_it_is_no_such_fact() -> None:

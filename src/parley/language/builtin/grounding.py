@@ -13,7 +13,7 @@ from parley.language.builtin.fillers import Filler
 from parley.language.builtin.lexicon import Lexicon, stem, stems
 from parley.language.builtin.listings import told_set
 from parley.language.builtin.saying import as_said, which_one, with_article
-from parley.language.builtin.sets import Group, group
+from parley.language.builtin.sets import Group, apart, group, without
 from parley.language.builtin.skills import Skills
 from parley.language.builtin.spatial import beside, picked
 from parley.language.builtin.things import Mention, link, noun_phrase
@@ -284,11 +284,14 @@ class Grounder:
 
     def _told_list(self, filler: Filler, mention: Mention) -> Group | None:
         """The things of a list that was told, by what they were called there."""
-        if mention.kind == "one" or self.left_out:
+        if mention.kind == "one":
             return None
         known = self.situation
-        things = told_set(filler.words, known.memory, known.objects, self.lexicon)
-        return Group(things) if things else None
+        words, inner = apart(filler.words, self.lexicon)
+        things = told_set(words, known.memory, known.objects, self.lexicon)
+        left_out = [*inner, *self.left_out]
+        whole = Group(things) if things else None
+        return without(whole, left_out, self.lexicon) if whole is not None and left_out else whole
 
     def _several(self, several: Group) -> Value | Ask:
         self.left_out = ()

@@ -155,20 +155,30 @@ def _without_openers(wishes: list[Wish], parse: Parse) -> list[Wish]:
     return kept
 
 
+_NAMED = frozenset("TGSLR")
+"""Roles that name a thing, a place or a person."""
+_FOCUS = frozenset({"only", "just", "merely", "solely"})
+
+
 def _filler(parse: Parse, span: Span, lexicon: Lexicon) -> Filler:
-    end = span.end
+    start, end = span.start, span.end
     while end - 1 > span.head and not parse.tokens[end - 1].is_word:
         end -= 1
-    words = tuple(token.low for token in parse.tokens[span.start : end])
-    head = span.head - span.start
+    if span.role in _NAMED:  # "only gate 1", "gate 1 only": that one
+        while start < end - 1 and parse.tokens[start].low in _FOCUS:
+            start += 1
+        while end - 1 > start and parse.tokens[end - 1].low in _FOCUS:
+            end -= 1
+    words = tuple(token.low for token in parse.tokens[start:end])
+    head = min(max(span.head, start), end - 1) - start
     small = lexicon.classes["prepositions"] | lexicon.classes["determiners"]
     first = next((at for at, word in enumerate(words) if word not in small), None)
-    if first is not None and span.role in "TGSLR":
+    if first is not None and span.role in _NAMED:
         behind = (at for at in range(first, len(words)) if words[at] in small - {"of", "'s"})
         stop = next(behind, len(words))
         if words[head] in small or head >= stop:
             head = stop - 2 if words[stop - 1] == "of" else stop - 1
-    return Filler(span.role, span.start, span.end, head, words, span.share, parse.said(span.start, end))
+    return Filler(span.role, span.start, span.end, head, words, span.share, parse.said(start, end))
 
 
 def _wish(parse: Parse, verb: Verb, mine: list[Filler], lexicon: Lexicon) -> Wish:

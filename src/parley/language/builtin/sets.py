@@ -15,7 +15,7 @@ from parley.language.builtin.saying import which_one
 from parley.language.builtin.things import head_of, link, main_word
 from parley.world.object_map import MapObject
 
-__all__ = ["Group", "group", "kinds", "number_of"]
+__all__ = ["Group", "apart", "group", "kinds", "number_of", "without"]
 
 _QUANTIFIERS = frozenset({"all", "every", "each", "both", "whole", "single"})
 _LINKING = frozenset({",", "and", "&", "plus"})
@@ -52,10 +52,8 @@ def group(
     said = list(words)
     while said and said[0] in lexicon.classes["prepositions"]:
         del said[0]
-    inner = next((at for at in range(1, len(said)) if _excepts(said, at, lexicon)), None)
-    if inner is not None:
-        size = next(n for n in (4, 3, 2, 1) if " ".join(said[inner : inner + n]) in _excepting(lexicon))
-        said, left_out = said[:inner], [*said[inner + size :], *left_out]
+    said, inner = apart(said, lexicon)
+    left_out = [*inner, *left_out]
     if not said or len(_exact(said, objects, lexicon)) == 1:
         return None
     parts = [
@@ -69,7 +67,16 @@ def group(
         return Group(doubt=which_one(names), choices=found.things)
     if found is None or not left_out:
         return found
-    return found if found.doubt else _without(found, left_out, lexicon)
+    return found if found.doubt else without(found, left_out, lexicon)
+
+
+def apart(words: Sequence[str], lexicon: Lexicon) -> tuple[list[str], list[str]]:
+    """What is named, and what is left out of it by the same words."""
+    inner = next((at for at in range(1, len(words)) if _excepts(words, at, lexicon)), None)
+    if inner is None:
+        return [*words], []
+    size = next(n for n in (4, 3, 2, 1) if " ".join(words[inner : inner + n]) in _excepting(lexicon))
+    return [*words[:inner]], [*words[inner + size :]]
 
 
 def _excepting(lexicon: Lexicon) -> frozenset[str]:
@@ -233,7 +240,7 @@ def number_of(item: MapObject) -> int | None:
     return int(last) if last.isdigit() else None
 
 
-def _without(whole: Group, words: Sequence[str], lexicon: Lexicon) -> Group:
+def without(whole: Group, words: Sequence[str], lexicon: Lexicon) -> Group:
     """A set without its exception, which names some of its own things."""
     family = whole.things
     text = " ".join(words)
