@@ -66,6 +66,11 @@ _ADDING: Final = re.compile(
     r"\b(?:also|add|too|as well|and then|then|after (?:that|this|wards?)|afterwards|at the end|finally|"
     r"besides|plus|include|append|on top|later|when you are done|when done|next)\b"
 )
+_ALSO: Final = re.compile(r"\b(?:as well|too|also|in addition|on top|besides|include)\b")
+_FOR_GOOD: Final = re.compile(
+    r"\b(?:instead|rather|scratch|forget|never ?mind|drop|cancel|leave|changed? my mind|change of plan)\b"
+)
+"""What takes back even beside "too"; "no, wait" only breaks in."""
 _ALL: Final = re.compile(
     r"\b(?:all|everything|forget (?:it|that|this)|scratch|cancel|drop (?:it|that)|never ?mind)\b"
 )
@@ -219,6 +224,8 @@ def change_of(
     for_ = [name for name in names if name not in against]
     takes_back = _TAKING_BACK.search(text) is not None
     if _FRONT.search(text) is not None and _INSTEAD.search(text) is None:
+        takes_back = False
+    if not against and _ALSO.search(text) is not None and _FOR_GOOD.search(text) is None:
         takes_back = False
     if orders:
         return _with_order(situation, plan, against, text, takes_back=takes_back)
@@ -427,7 +434,8 @@ def _put_in(plan: Sequence[Visit], wanted: Sequence[Named], text: str) -> Change
     planned = {thing.id for visit in plan for thing in visit.things}
     if like is None or any(len(name.things) > 1 or name.things[0].id in planned for name in wanted):
         return None
-    calls = tuple(call for name in wanted for call in moved(like, name.things[0]) or ())
+    deed = _deed_of(plan, like)
+    calls = tuple(call for name in wanted for visit in deed for call in moved(visit, name.things[0]) or ())
     names = " and ".join(called(name.things[0].description) for name in wanted)
     if front:
         return reordered(plan, [], plan, "front", calls, f"First {names}, then on with the rest.")
