@@ -165,6 +165,19 @@ async def test_what_was_said_to_a_team_is_given_on_as_work_and_not_as_its_parts(
         assert goals(home) == {"Spot": [], "TIAGo": [], "Leo": ["Area A"]}
 
 
+async def test_what_another_robot_does_already_is_asked_about_and_nothing_older_is_done() -> None:
+    async with hall(speed=4.0) as home:  # TIAGo is under way while it is spoken of
+        await home.say("go to the pump", "Spot")
+        await home.done("Spot")
+        await home.say("let TIAGo go to Area A", "Spot")
+        asked = await home.say("no, let Leo do that", "Spot")
+        assert asked.choices == ("Let Leo take over from TIAGo",)
+        assert goals(home) == {"Spot": ["pump"], "TIAGo": ["Area A"], "Leo": []}
+        await home.say("cancel everything", "TIAGo")
+        await home.say("let Leo do that", "Spot")
+        assert goals(home)["Leo"] == ["Area A"]
+
+
 async def test_who_was_stopped_goes_with_the_yes_to_something_else_and_not_by_a_step_left_out() -> None:
     async with hall() as home:
         await home.say("go to Area A", "TIAGo")

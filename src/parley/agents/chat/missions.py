@@ -144,6 +144,7 @@ class Missions:
             self._say((target,), texts.CANNOT, said)
             return
         ids = {order.targets[0]: order.id for order in orders}
+        await self._talk.give_on(target, said, tuple(ids))
         self._follow(said, mission, ids)
         rulings: dict[str, PlanRuling] = {}
         for order in orders:

@@ -12,8 +12,10 @@ from parley.agents.planner.flow import pending_calls
 from parley.agents.presence import Presence
 from parley.gate.orders import UNSURE_OF_ALL
 from parley.language.base import Language, Situation
+from parley.language.dialogue.state import Order
 from parley.language.dialogue.team import Part, TeamWish, is_in_turn, is_of_several, team_wish
 from parley.language.stop_words import calls_to_stop
+from parley.latest import Latest
 from parley.messages.chat import ActionCall, ChatAction, ChatInput
 from parley.messages.status import ActorStatus, PlanProposal
 from parley.sentences import Sentence, listed, sentence, together
@@ -66,6 +68,16 @@ class _Understood:
     needs_yes: str = ""
 
 
+@dataclass(frozen=True, slots=True)
+class _GivenOn:
+    """What was said to a robot and is others' to do."""
+
+    words: str
+    takers: tuple[str, ...]
+    behind: tuple[Order, ...]
+    """What the robot itself had been told last then."""
+
+
 class TeamTalk:
     """Understands what is said to several robots.
 
@@ -87,6 +99,7 @@ class TeamTalk:
     ) -> None:
         self._language, self._known, self._presence = language, known, presence
         self._survey, self._offered = survey, offered
+        self._given_on: Latest[str, _GivenOn] = Latest()
 
     def wish(self, message: str) -> TeamWish | None:
         """How words spread work over robots; None if they do not."""
@@ -178,12 +191,20 @@ class TeamTalk:
                 found[name] = outlook
         return found
 
+    async def give_on(self, target: str, said: ChatInput, takers: Sequence[str]) -> None:
+        """What was said to a robot becomes others' work: that is what "that" means to it from now on."""
+        orders = (await self._situation(target, said.message, said)).dialogue.orders
+        self._given_on[target] = _GivenOn(said.message, tuple(takers), orders[-1:])
+
     async def said_last(self, target: str, said: ChatInput) -> tuple[str, str]:
         """The words that "that" means, and the proposal of it that waits; or why they cannot be given on."""
         situation = await self._situation(target, said.message, said)
         proposal, orders = self._offered(target), situation.dialogue.orders
         if proposal is not None and proposal.words:
             return proposal.words, proposal.id
+        given = self._given_on.get(target)
+        if given is not None and given.behind == orders[-1:] and target not in given.takers:
+            return ("" if any(map(self.left, given.takers)) else given.words), ""
         if orders and not situation.queue:
             return orders[-1].words, ""
         asked = situation.dialogue.asked
