@@ -317,6 +317,8 @@ class _Words:
             return replace(part, order=order) if order else None
         if opens := re.match(self.of("opening"), order, re.IGNORECASE):
             order = f"go to{order[opens.end() :]}"
+        if meets := re.match(self.of("meeting"), order, re.IGNORECASE):
+            order = f"go to{order[meets.end() :]}"
         first = order.split(" ")[0].lower()
         acts = (first,) in lexicon().verbs and first not in lexicon().classes["being"]
         return replace(part, order=order) if acts and " " in order else None
