@@ -84,6 +84,17 @@ async def test_what_is_to_be_forgotten_is_named() -> None:
     ]
 
 
+async def test_what_a_robot_saw_is_not_lost_by_words_that_may_be_about_its_plan() -> None:
+    seen = MemoryEntry(name="gate_sighting", data="I saw the gate by the ramp.", way="seen")
+    shown = MemoryEntry(name="picture_of_gate", data="", type="image", way="seen")
+    asked = await ENGINE.interpret(situation("forget the gate", memory=(seen, shown)))
+    assert asked.system_cmd == ()
+    (choice,) = asked.choices
+    answer = await ENGINE.interpret(situation(choice, memory=(seen, shown)))
+    assert [command.command for command in answer.system_cmd] == ["remove_memory", "remove_memory"]
+    assert answer.message_response == "I forget this: I saw the gate by the ramp; picture of gate."
+
+
 async def test_forget_that_takes_back_what_was_told_last_whatever_was_asked_since() -> None:
     turns = (
         Turn("operator", "Kim is in the office"), Turn("assistant", "I will remember that."),

@@ -45,6 +45,7 @@ from parley.language.dialogue.questions import plain, question_of
 from parley.language.dialogue.rearranging import rearranged
 from parley.language.dialogue.replies import chosen, is_thinking, names_deed
 from parley.language.dialogue.speaker import Again, answered_place, told_place
+from parley.messages.plain import in_words
 from parley.umrf.kinds import words_of_name
 from parley.world.object_map import MapObject
 
@@ -148,8 +149,14 @@ def _about_itself(
     if question is not None and (said := answer(question, situation)):
         return Answer(said)
     lost = taken_back(situation, bare, told_in) or forgotten(situation, bare)
+    if lost and bare.startswith("forget ") and any(entry.way == "seen" for entry in lost):
+        named = re.fullmatch(r"forget (?!about |all |what |that |where |everything )(.+)", bare)
+        if named is not None:  # mostly that is said of what is to be done
+            more = f"forget about {named[1]}"
+            return Ask(f"Do you mean what I have seen of that? Then say “{more}”.", (more,))
     if lost:
-        return Forget(tuple(entry.name for entry in lost), tuple(entry.data for entry in lost))
+        texts = (entry.data.rstrip(".") if entry.type == "text" else in_words(entry.name) for entry in lost)
+        return Forget(tuple(entry.name for entry in lost), tuple(texts))
     if lost is not None and situation.memory and bare.startswith("forget") and not _known_plan(situation):
         return Answer("I know nothing of that, so there is nothing to forget.")
     if is_emergency(situation) and NO_ALARM.fullmatch(bare):
