@@ -1,7 +1,7 @@
 /** The story of the warehouse, as somebody at a desk lives it: which area, what is in the way, and home. */
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
-import { barriers, hasBrowser, PATIENCE_MS, robotNamed, say, sizes, startStage, type Stage } from './stage';
+import { barriers, hasBrowser, PATIENCE_MS, robotNamed, say, sizes, startStage, steps, type Stage } from './stage';
 
 const DOCK = { x: 0.45, y: 1.2 };
 
@@ -27,6 +27,7 @@ describe.skipIf(!hasBrowser)('somebody who gets a shipment ready', () => {
     await seen(/I can see the package/).waitFor();
     await seen(/blue cylinder at the edge/).waitFor();
     await page.locator('li[data-question="open"]').filter({ hasText: /blue cylinder/ }).waitFor();
+    await steps(page).getByText('Found something', { exact: true }).waitFor();
     expect(await barriers(page)).toEqual([]);
     await expect.poll(() => stage.system.output(), { timeout: PATIENCE_MS }).toContain('somebody takes the blue cylinder away');
 

@@ -2,7 +2,7 @@ import { act, render, screen, within } from '@testing-library/react';
 import userEvent from '@testing-library/user-event';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 
-import { ability, mapInfo, plan, robot, snapshot, step } from '@/live/samples';
+import { ability, incident, mapInfo, plan, robot, snapshot, step } from '@/live/samples';
 import { useLive } from '@/live/store';
 import type { PlanView, StepState } from '@/live/types';
 import { useToasts } from '@/state/toasts';
@@ -50,6 +50,16 @@ describe('the plan', () => {
     await user.click(screen.getByRole('button', { name: 'Change' }));
     gone(4);
     expect(useToasts.getState().toasts.map(({ message }) => message)).toEqual([expect.stringContaining('Your change was not used.')]);
+  });
+
+  it('does not say of a look that found something that it did not work', () => {
+    const words = ['I can see a bag.', 'I cannot see the box.'] as const;
+    show({ steps: words.map((message) => step({ id: message, state: 'failed', message })) });
+    const codes = ['attention', 'no_match'] as const;
+    act(() => useLive.getState().takeChanges(words.map((message, at) => ({ kind: 'incident', seq: at + 1, incident: incident({ id: message, code: codes[at] ?? 'internal', message }) }))));
+    const state = (message: string) => screen.getByText(message, { selector: 'p' }).closest('li')?.textContent;
+    expect(state(words[0])).toContain('Found something');
+    expect(state(words[1])).toContain('Did not work');
   });
 
   it('tells the state of each step in words', () => {

@@ -2,6 +2,7 @@ import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { OVER } from '@/live/lines';
+import { useWorld } from '@/live/store';
 import type { StepState, StepView } from '@/live/types';
 import { Icon, type IconName } from '@/ui/icon';
 import { needsCare } from '@/ui/risk';
@@ -40,6 +41,7 @@ export function StepCard({ line, number, changed, onRemove = null }: Props) {
   const [open, setOpen] = useState(false);
   const { step } = line;
   const label = sentence(step.label) || inWords(step.action);
+  const state = useFound(step) ? 'found' : step.state;
   return (
     <li className={css.card} data-state={step.state} data-changed={changed || undefined}>
       <div className={css.line}>
@@ -51,7 +53,7 @@ export function StepCard({ line, number, changed, onRemove = null }: Props) {
             <span className={css.label}>
               <span className={css.number}>{number}.</span> {label}
             </span>{' '}
-            <span className={PLAIN.has(step.state) ? 'hidden' : css.state}>{t(`step.${step.state}`)}</span>{' '}
+            <span className={PLAIN.has(step.state) ? 'hidden' : css.state}>{t(`step.${state}`)}</span>{' '}
             {changed && <span className={css.badge}>{t('changed')}</span>}{' '}
             {needsCare(step.risk) && <span className={css.badge}>{t('risky')}</span>}
           </span>
@@ -66,6 +68,15 @@ export function StepCard({ line, number, changed, onRemove = null }: Props) {
     </li>
   );
 }
+
+/** Whether a step counts as failed only because of what it found: looking itself went well. */
+const useFound = (step: StepView) =>
+  useWorld(
+    ({ incidents }) =>
+      step.state === 'failed' &&
+      step.message !== '' &&
+      Object.values(incidents).some(({ code, message }) => code === 'attention' && message === step.message),
+  );
 
 /** Why it failed, and what whoever planned it says about it: its words, never ours. */
 function Told({ step }: { step: StepView }) {
