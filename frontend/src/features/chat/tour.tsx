@@ -18,6 +18,7 @@ export function Tour({ robot, asks }: { robot: string; asks: boolean }) {
   const { lines, at, end } = useTour();
   const line = lines[at];
   const mood = useMood(robot);
+  const waits = useWorld((world) => Object.values(world.proposals).some((proposal) => proposal.robot === robot));
   useEffect(() => {
     if (mood === 'stopped' || mood === 'away') end();
   }, [mood, end]);
@@ -25,7 +26,7 @@ export function Tour({ robot, asks }: { robot: string; asks: boolean }) {
   if (line === undefined) return null;
   return (
     <div className={css.bar} role="status">
-      <Writing key={at} robot={robot} line={line} asks={asks} isLast={at + 1 === lines.length} />
+      <Writing key={at} robot={robot} line={line} asks={asks || waits} isLast={at + 1 === lines.length} />
       <p>{t('showing', { number: at + 1, all: lines.length })}</p>
       <Button onPress={end}>{t('showEnd')}</Button>
     </div>
