@@ -22,7 +22,7 @@ help: ## Show what there is
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1	\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 18
 
 # A released version brings the page; who changed its sources has made frontend/node_modules, and gets it built anew.
-demo: $(VENV)/.runtime ## Talk to a simulated robot in the browser
+demo: $(VENV)/.runtime ## Talk to simulated robots in the browser
 	@if [ -f $(PAGE) ] && [ ! -d frontend/node_modules ]; then echo "Taking the page as it was built"; \
 	else $(MAKE) --no-print-directory page || echo "The page could not be built (see above); going on with what there is."; fi
 	@echo "Starting"

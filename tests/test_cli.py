@@ -119,6 +119,8 @@ def test_unknown_variant_is_named_with_those_that_exist() -> None:
     [
         (("demo", "nursing-home", "--script", "--actions", "nowhere"), "no folder"),
         (("demo", "nursing-home", "--ros-args"), "--ros-args"),
+        (("demo", "nursing-home", "--robots", "Kim"), "has: David, Ruth"),
+        (("demo", "nursing-home", "--script", "--robots", "David"), "--robots does not go with --script"),
         (("graph", "check", "nowhere.json"), "nowhere.json"),
     ],
 )
@@ -129,6 +131,14 @@ def test_what_is_wrong_at_the_start_is_one_line_and_exit_code_2(
     assert done.returncode == 2
     assert words in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_the_terminal_has_the_robots_that_are_named(tmp_path: Path) -> None:
+    said = "what can you do?\n"
+    alone = parley("demo", "--terminal", "--data", str(tmp_path), text=said)
+    both = parley("demo", "--terminal", "--robots", "David, Ruth", "--data", str(tmp_path), text=said)
+    assert "David is here." in alone.stdout and "Ruth" not in alone.stdout
+    assert "David is here." in both.stdout and "Ruth is here." in both.stdout
 
 
 def test_unknown_demo_is_named_with_those_that_exist() -> None:

@@ -53,8 +53,9 @@ async def test_robots_of_another_process_are_talked_to_and_stopped(tmp_path: Pat
     settings = tmp_path / "parley.yaml"
     settings.write_text(f"network: {{listen: [{at}], interface: ''}}\n", encoding="utf-8")
     robots = await asyncio.create_subprocess_exec(
-        sys.executable, "-m", "parley", "demo", "nursing-home", "--no-open", "--port", "0",
-        "--config", str(settings), "--data", str(tmp_path / "data"), stdout=asyncio.subprocess.DEVNULL,
+        sys.executable, "-m", "parley", "demo", "nursing-home", "--robots", "David", "--no-open",
+        "--port", "0", "--config", str(settings), "--data", str(tmp_path / "data"),
+        stdout=asyncio.subprocess.DEVNULL,
     )  # fmt: skip
     network = NetworkSettings(listen=(), connect=(at,), interface="")
     try:

@@ -1,7 +1,7 @@
 /** What the page does for somebody who never used it, and for somebody who looks away. */
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
-import { hasBrowser, PATIENCE_MS, robotNamed, sizes, startStage, untilItMoved, type Stage } from './stage';
+import { barriers, hasBrowser, PATIENCE_MS, robotNamed, say, sizes, startStage, untilItMoved, type Stage } from './stage';
 
 describe.skipIf(!hasBrowser)('somebody new', () => {
   let stage: Stage;
@@ -60,6 +60,53 @@ describe.skipIf(!hasBrowser)('somebody new', () => {
     await call('David');
     await expect.poll(notes, { timeout: PATIENCE_MS }).toEqual(['David: Which one?']);
     await context.close();
+  });
+});
+
+const ROBOTS = ['David', 'Ruth'];
+
+describe.skipIf(!hasBrowser)('somebody new, in the home as it is opened', () => {
+  let stage: Stage;
+
+  beforeAll(async () => {
+    stage = await startStage([], 'as-opened');
+  });
+
+  afterAll(async () => {
+    await stage.close();
+  });
+
+  it('finds two robots, sends each somewhere, and stops both with one press', async () => {
+    const page = await stage.open(sizes.desktop);
+    const tabs = page.getByRole('group', { name: 'Robots you talk to' });
+    await page.getByRole('textbox', { name: 'Write to David' }).waitFor();
+    await page.getByRole('button', { name: 'Go to the dining table.' }).click();
+    await tabs.getByRole('button', { name: /^Ruth/ }).click();
+    const [david, ruth] = await Promise.all([robotNamed(stage), robotNamed(stage, 'Ruth')]);
+    await say(page, 'Go to the bookshelf.');
+    await Promise.all([untilItMoved(stage, david), untilItMoved(stage, ruth)]);
+    await page.getByRole('button', { name: 'Stop all' }).click();
+    for (const robot of ROBOTS) await page.getByText(`${robot} is stopped and stays so until it is released.`).waitFor();
+    await expect.poll(() => page.getByText('Stands still (measured)').count(), { timeout: PATIENCE_MS }).toBe(2);
+    for (const robot of ROBOTS) expect((await robotNamed(stage, robot))?.state).toBe('stopped');
+  });
+
+  it('releases both, tells both the same, and sees what each says', async () => {
+    const page = await stage.open(sizes.phone);
+    for (const robot of ROBOTS) {
+      await page.getByRole('button', { name: 'Release…' }).first().tap();
+      await page.getByRole('button', { name: 'Yes, it is safe' }).tap();
+      await page.getByText(`${robot} is stopped`).waitFor({ state: 'detached' });
+    }
+    await page.getByRole('button', { name: 'Several' }).tap();
+    await page.getByRole('group', { name: 'Robots you talk to' }).getByRole('button', { name: /^Ruth/ }).tap();
+    await page.getByRole('textbox', { name: 'Write to David and Ruth' }).waitFor();
+    await say(page, 'cancel everything');
+    for (const robot of ROBOTS) {
+      await expect.poll(async () => (await robotNamed(stage, robot))?.state, { timeout: PATIENCE_MS }).toBe('idle');
+    }
+    expect(await page.getByText('cancel everything', { exact: true }).count()).toBe(1);
+    expect(await barriers(page)).toEqual([]);
   });
 });
 

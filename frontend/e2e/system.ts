@@ -4,8 +4,8 @@ import { mkdtemp, rm } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 
-/** A demonstration of Parley; `two-robots`: one with a second robot. */
-export type Program = 'nursing-home' | 'parking' | 'warehouse' | 'fleet' | 'two-robots';
+/** `nursing-home`: with David alone. `as-opened`: as whoever tries it first opens it. `two-robots`: with one that can fall silent. */
+export type Program = keyof typeof DEMOS | 'two-robots';
 
 export interface System {
   /** Where its page is, with a slash at the end. */
@@ -24,6 +24,13 @@ export interface System {
   close: () => Promise<void>;
 }
 
+const DEMOS = {
+  'nursing-home': ['nursing-home', '--robots', 'David'],
+  'as-opened': ['nursing-home'],
+  parking: ['parking'],
+  warehouse: ['warehouse'],
+  fleet: ['fleet'],
+} as const;
 const PARLEY = resolve(process.env.PARLEY_COMMAND ?? '../.venv/bin/parley');
 const START_MS = 60_000;
 const END_MS = 10_000;
@@ -60,9 +67,9 @@ interface Running {
 
 function begin(program: Program, options: readonly string[]): Promise<Running> {
   const [command, ...first] =
-    program !== 'two-robots'
-      ? [PARLEY, 'demo', program, '--no-open']
-      : [join(dirname(PARLEY), 'python'), '-m', 'tests.web.e2e.two_robots'];
+    program === 'two-robots'
+      ? [join(dirname(PARLEY), 'python'), '-m', 'tests.web.e2e.two_robots']
+      : [PARLEY, 'demo', ...DEMOS[program], '--no-open'];
   const child = spawn(command ?? PARLEY, [...first, ...options], { cwd: resolve('..'), stdio: 'pipe' });
   return new Promise((settle, reject) => {
     let output = '';

@@ -61,6 +61,40 @@ def test_a_malformed_world_is_refused_with_file_and_field(old: str, new: str, fi
     assert (caught.value.file, caught.value.field) == ("world.yaml", field)
 
 
+STANDBY = "standby:\n  - {name: B, model: turtlebot3_waffle, pose: [1.0, 3.0, 0.0]}\n"
+
+
+def test_robots_that_stand_by_are_in_the_world_where_they_are_wanted() -> None:
+    world = WorldFile.parse(TWO_ROOMS + STANDBY)
+    assert [robot.name for robot in world.robots] == ["A"]
+    assert [robot.name for robot in world.with_robots(("B", "A")).robots] == ["A", "B"]
+    alone = world.with_robots(("B",))
+    assert [robot.name for robot in alone.robots] == ["B"]
+    assert alone.with_robots(("A", "B")).robot("A") == world.robot("A")
+    for names in ((), ("A", "C")):
+        with pytest.raises(FileFormatError):
+            world.with_robots(names)
+
+
+def test_an_event_about_a_robot_that_is_left_out_is_refused() -> None:
+    near = "near: {thing: crate_1, robot: A, within_m: 1.0}"
+    world = WorldFile.parse(
+        f"{TWO_ROOMS}{STANDBY}events:\n  - {{name: e, {near}, change: {{remove: [crate_1]}}}}\n"
+    )
+    with pytest.raises(FileFormatError, match="no robot 'A'"):
+        world.with_robots(("B",))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "field"),
+    [("name: B", "name: A", "standby[0].name"), ("[1.0, 3.0, 0.0]", "[5.2, 2.4, 0.0]", "standby[0].pose")],
+)
+def test_a_robot_that_stands_by_is_checked_like_the_others(old: str, new: str, field: str) -> None:
+    with pytest.raises(FileFormatError) as caught:
+        WorldFile.parse(TWO_ROOMS + STANDBY.replace(old, new), file="world.yaml")
+    assert caught.value.field == field
+
+
 def test_an_unknown_robot_model_is_answered_with_the_known_ones() -> None:
     with pytest.raises(FileFormatError, match=r"known: .*turtlebot3_waffle"):
         WorldFile.parse(TWO_ROOMS.replace("turtlebot3_waffle", "unicorn"))

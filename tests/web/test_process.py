@@ -29,10 +29,11 @@ ASKED = f"This is what I would do: {STEPS}. Shall I?"
 @contextmanager
 def demo(data: Path, *options: str) -> Iterator[tuple[subprocess.Popen[str], httpx.Client]]:
     """A running demonstration with a client to it."""
-    command = [sys.executable, "-m", "parley", "demo", "nursing-home", "--no-open", "--port", "0"]
+    command = [sys.executable, "-m", "parley", "demo", "nursing-home", "--robots", "David", "--no-open"]
     process = subprocess.Popen(
-        [*command, "--data", str(data), *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
+        [*command, "--port", "0", "--data", str(data), *options],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
     try:
         assert process.stdout is not None
         first = process.stdout.readline()

@@ -74,6 +74,12 @@ def command(
         float | None,
         typer.Option(help="Simulated seconds per second; default: 1 when chatting, full speed for scripts."),
     ] = None,
+    robots: Annotated[
+        str,
+        typer.Option(
+            help="Which of the world's robots there are, e.g. David,Ruth; default: on the page all of them."
+        ),
+    ] = "",
     seed: Annotated[
         int | None, typer.Option(help="Another run: other start poses, noise and times of events.")
     ] = None,
@@ -105,6 +111,9 @@ def command(
     settings |= embedding_settings(embeddings, embeddings_key_file)
     given = SystemConfig() if config is None else SystemConfig.load(config)
     chosen = given.changed(settings)
+    named = [robot.strip() for robot in robots.split(",") if robot.strip()]
+    if script and named:
+        raise ConfigError("--robots does not go with --script: a story has the robots that it tells of")
     if script:
         played = _script(loaded, story, variant, chosen.changed({"speed": speed}), data, json)
         raise typer.Exit(on_loop(played))
@@ -113,6 +122,8 @@ def command(
     chosen = loaded.settled(chosen)
     folder = data or chosen.data_dir or data_folder(loaded.folder_name)
     chosen = chosen.changed({"data_dir": folder} | ({} if speed is None else {"speed": speed}))
+    if named or not terminal:
+        loaded = loaded.with_robots(named or loaded.everybody)
     if terminal:
         on_loop(_chat(loaded, chosen, lang))
         return

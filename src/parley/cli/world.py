@@ -28,7 +28,9 @@ def check(file: WorldArgument) -> None:
     """Read a world file and say what is in it, or what is wrong with it."""
     world = WorldFile.load(file)
     things, robots = len(world.things), ", ".join(robot.name for robot in world.robots)
-    typer.echo(f"{world.name}: {things} thing{'s' * (things != 1)}, robots: {robots}")
+    more = ", ".join(robot.name for robot in world.standby)
+    standby = f"; on standby: {more}" if more else ""
+    typer.echo(f"{world.name}: {things} thing{'s' * (things != 1)}, robots: {robots}{standby}")
 
 
 @app.command("map")

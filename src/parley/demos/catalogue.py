@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from importlib import resources
 from pathlib import Path
@@ -79,6 +79,19 @@ class Demo:
         if self.told is None:
             raise ConfigError(f"{self.name} has no story.yaml, so there is nothing to play")
         return self.told
+
+    @property
+    def everybody(self) -> tuple[str, ...]:
+        """Names of its robots, those that stand by among them."""
+        return tuple(robot.name for robot in (*self.world.robots, *self.world.standby))
+
+    def with_robots(self, names: Collection[str]) -> Demo:
+        """The same with these of its robots.
+
+        Raises:
+            FileFormatError: It has no robot of that name, or there would be none.
+        """
+        return replace(self, world=self.world.with_robots(names, "--robots"))
 
     def system(
         self,

@@ -23,7 +23,7 @@ Metres and radians in the map frame. Unknown keys are refused, and every error n
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any, Final, Self
 
 from pydantic import Field
@@ -53,6 +53,8 @@ class WorldFile(Entry, TextFile):
     areas: tuple[Area, ...] = ()
     things: tuple[Thing, ...] = ()
     robots: tuple[RobotEntry, ...] = Field(min_length=1)
+    standby: tuple[RobotEntry, ...] = ()
+    """More robots, in it only where they are wanted (`with_robots`)."""
     events: tuple[WorldEvent, ...] = ()
     """What happens in it by itself."""
 
@@ -64,6 +66,7 @@ class WorldFile(Entry, TextFile):
             FileFormatError: Names the file and the field.
         """
         world = validated(cls, parse_yaml(text, file), file)._consistent(file)
+        world._check_standby(file)
         world._check_starts(file)
         world._check_events(file)
         return world
@@ -97,6 +100,25 @@ class WorldFile(Entry, TextFile):
             update={"things": (*things, *changes.add), "robots": tuple(robots), "events": events}
         )
         return changed._consistent(file)
+
+    def with_robots(self, names: Collection[str], file: str = "robots") -> Self:
+        """This world with these of its robots, those that stand by among them; `file` is only for messages.
+
+        Raises:
+            FileFormatError: It has no robot of that name, none is named, or an event is about one left out.
+        """
+        everybody = (*self.robots, *self.standby)
+        known = [robot.name for robot in everybody]
+        for name in names:
+            if name not in known:
+                raise FileFormatError(file, name, f"the world {self.name!r} has: {', '.join(known)}")
+        if not names:
+            raise FileFormatError(file, "robots", "there must be one at least")
+        here = tuple(robot for robot in everybody if robot.name in names)
+        away = tuple(robot for robot in everybody if robot.name not in names)
+        world = self.model_copy(update={"robots": here, "standby": away})
+        world._check_events(file)
+        return world
 
     def thing(self, name: str) -> Thing:
         """The thing of that name.
@@ -231,11 +253,20 @@ class WorldFile(Entry, TextFile):
 
     def _check_starts(self, file: str) -> None:
         """Refuse robots that start inside something: physics would throw them about."""
-        for index, robot in enumerate(self.robots):
-            if name := self.in_the_way(robot):
-                raise FileFormatError(
-                    file, f"robots[{index}].pose", f"{robot.name!r} would start in {name!r}"
-                )
+        for field, robots in (("robots", self.robots), ("standby", self.standby)):
+            for index, robot in enumerate(robots):
+                if name := self.in_the_way(robot):
+                    raise FileFormatError(
+                        file, f"{field}[{index}].pose", f"{robot.name!r} would start in {name!r}"
+                    )
+
+    def _check_standby(self, file: str) -> None:
+        """Refuse a name that two robots would have."""
+        seen = {robot.name for robot in self.robots}
+        for index, robot in enumerate(self.standby):
+            if robot.name in seen:
+                raise FileFormatError(file, f"standby[{index}].name", f"{robot.name!r} is used twice")
+            seen.add(robot.name)
 
     def _check_events(self, file: str) -> None:
         """Refuse events that cannot happen: what they change has to be there, one after the other."""
