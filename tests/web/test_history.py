@@ -90,6 +90,33 @@ async def test_every_round_stands_with_who_wanted_it_how_it_ended_and_what_was_s
         assert (await rig.http.get("/api/history/file?number=1")).status_code == 404
 
 
+async def test_how_long_it_took_counts_neither_the_wait_for_an_answer_nor_standing_still() -> None:
+    async with logged() as rig:
+        await order(rig, "one", "look at the box", BEGAN_MS)
+
+        def node(name: str, state: str, at_ms: int) -> None:
+            event = GraphEvent(
+                actor="Ada", graph_name="one", sequence=0, kind="node", node=name, state=state, unix_ms=at_ms
+            )
+            rig.robots.tell(topics.GRAPH_EVENTS, event)
+
+        node("Inspect_1", "RUNNING", BEGAN_MS)
+        node("Inspect_1", "PAUSED", BEGAN_MS + 1000)
+        node("Inspect_1", "RUNNING", BEGAN_MS + 4000)
+        node("Inspect_1", "FINISHED", BEGAN_MS + 6000)
+        node("AskOperator_1", "RUNNING", BEGAN_MS + 6000)
+        ask = ActionCall(name="AskOperator").model_dump()
+        asks = {"action": ask, "node": "AskOperator_1", "state": "waiting"}
+        told = {"target": "Ada", "graph_name": "one", "state": "running", "steps": [asks]}
+        rig.robots.tell(topics.PLAN, PlanUpdate.model_validate(told))
+        await rig.heard()
+        node("AskOperator_1", "FINISHED", BEGAN_MS + 30_000)
+        graph(rig, "one", "FINISHED", BEGAN_MS + 30_001)
+        await rig.heard()
+        (found,) = (await rig.http.get("/api/history")).json()["rounds"]
+        assert (found["state"], found["worked_ms"]) == ("done", 3000)
+
+
 async def test_the_next_shift_is_told_what_was_done_what_failed_what_waits_and_who_stopped_what() -> None:
     async with logged() as rig:
         await order(rig, "one", "look at the box", BEGAN_MS)

@@ -89,6 +89,7 @@ export const round = (part: Partial<RoundView> & { number: number }): RoundView 
   approved_by: '',
   unix_ms: Date.UTC(2026, 0, 2, 9),
   ended_unix_ms: Date.UTC(2026, 0, 2, 9, 1, 5),
+  worked_ms: 32_000,
   state: 'done',
   left: [],
   steps: ['Go to “box”'],

@@ -12,6 +12,7 @@ from typing import Any, Final
 
 from parley.gate.ruling import EFFECT_OF
 from parley.gate.table import Effect, verdict
+from parley.gate.work_time import WorkTime
 from parley.latest import Latest
 from parley.messages.audit import AuditEvent
 from parley.messages.chat import ActionCall, ChatAction, ChatInput, Press
@@ -55,6 +56,7 @@ class Heard:
         """What made each robot's newest plan, as facts of an event."""
         self._plans: Latest[str, PlanUpdate] = Latest()
         self._running: Latest[str, dict[str, Any]] = Latest()
+        self._works: Latest[str, WorkTime] = Latest()
         self._memories: Latest[str, tuple[Principal | None, str]] = Latest()
         self._stops: Latest[str, StopCommand] = Latest()
         self._presses: Latest[str, None] = Latest()
@@ -110,11 +112,14 @@ class Heard:
             self.robots.add(told.target)
             before = self._plans.get(told.target) or told
             self._plans[told.target] = told
+            if work := self._works.get(f"{told.target}\n{told.graph_name}"):
+                work.on_steps(told.steps)
             last = told if told.graph_name == before.graph_name else before
             if last is told and told.state != "idle":
                 return []
-            facts = self._running.pop(f"{last.target}\n{last.graph_name}", None)
-            return [_over(last, facts)] if facts else []
+            key = f"{last.target}\n{last.graph_name}"
+            facts, worked = self._running.pop(key, None), self._worked(key)
+            return [_over(last, facts, worked)] if facts else []
         if self._proposals.get(told.id) is not None:
             return []
         self._proposals[told.id] = told
@@ -171,13 +176,15 @@ class Heard:
         self.robots.add(event.actor)
         key = f"{event.actor}\n{event.graph_name}"
         if event.kind == "node":
+            if work := self._works.get(key):
+                work.on_node(event)
             if event.result == "on_error" and event.message and (facts := self._running.get(key)):
                 facts["reason"] = event.message
             return []
         if event.kind == "graph" and event.state == "RUNNING" and self._running.get(key) is None:
             return [self._began(event, key)]
         if event.kind == "graph" and event.state in _ENDS and (facts := self._running.pop(key, None)):
-            return [self._ended(event, facts)]
+            return [self._ended(event, facts, self._worked(key, event.unix_ms))]
         return []
 
     def _began(self, event: GraphEvent, key: str) -> AuditEvent:
@@ -186,14 +193,20 @@ class Heard:
         told = labels(plan.steps) if plan and plan.graph_name == event.graph_name else order.get("labels", [])
         detail = {"graph": event.graph_name, "labels": told, **order["detail"]}
         self._running[key] = {"by": order["by"], "detail": detail, "digest": order.get("digest", "")}
+        self._works[key] = WorkTime()
         return AuditEvent(
             effect="start", by=order["by"], robot=event.actor, detail=detail, digest=order.get("digest", ""),
             unix_ms=event.unix_ms,
         )  # fmt: skip
 
-    def _ended(self, event: GraphEvent, facts: dict[str, Any]) -> AuditEvent:
+    def _worked(self, key: str, until_ms: int = 0) -> dict[str, Any]:
+        """For how long, as a fact of an event; asked once, at the end."""
+        work = self._works.pop(key, None)
+        return {} if work is None else {"worked_ms": work.worked_ms(until_ms)}
+
+    def _ended(self, event: GraphEvent, facts: dict[str, Any], worked: dict[str, Any]) -> AuditEvent:
         plan = self._plans.get(event.actor)
-        detail = {**facts["detail"], "state": event.state}
+        detail = {**facts["detail"], "state": event.state, **worked}
         if plan and plan.graph_name == event.graph_name and plan.steps:
             detail |= _done(plan.steps)
         failed = event.state == "ERROR" or event.result == "on_error"
@@ -310,12 +323,12 @@ def _labels_of(proposal: PlanProposal) -> list[str]:
     return list(proposal.labels) or labels(proposal.steps)
 
 
-def _over(plan: PlanUpdate, facts: dict[str, Any]) -> AuditEvent:
+def _over(plan: PlanUpdate, facts: dict[str, Any], worked: dict[str, Any]) -> AuditEvent:
     """The end of a plan, by what became of its steps."""
     states = {step.state for step in plan.steps}
     failed = "failed" in states
     state = "ERROR" if failed else "FINISHED" if states <= {"finished", "skipped"} else "STOPPED"
-    detail = {**facts["detail"], "state": state, **_done(plan.steps)}
+    detail = {**facts["detail"], "state": state, **worked, **_done(plan.steps)}
     return AuditEvent(
         effect="end", by=facts["by"], robot=plan.target, detail=detail, digest=facts["digest"],
         outcome="failed" if failed else "done", reason=facts.get("reason", "") if failed else "",

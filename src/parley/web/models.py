@@ -354,6 +354,9 @@ class RoundView(WebModel):
     unix_ms: int
     ended_unix_ms: int = 0
     """0: it goes on, or its end was never heard."""
+    worked_ms: int | None = None
+    """How long the robot worked at it until its end: while it stood, or waited for an answer or a yes, does
+    not count. None: that is not known."""
     state: RoundState
     """`partly`: done but for `left`; `ended`: before it was done; `unrecorded`: the log has no end of it,
     and it does not go on."""

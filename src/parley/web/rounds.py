@@ -106,11 +106,17 @@ def _round(
         approved_by=in_language(who_of(approved), language) if approved else "",
         unix_ms=start.unix_ms,
         ended_unix_ms=end.unix_ms if end else 0,
+        worked_ms=_worked_ms(end),
         state=_state(end, is_running),
         steps=_texts(last, "labels", language),
         left=_texts(last, "left", language),
         reason=in_language(end.reason, language) if end else "",
     )
+
+
+def _worked_ms(end: AuditEntry | None) -> int | None:
+    found = end.detail.get("worked_ms") if end else None
+    return found if isinstance(found, int) else None  # logs of before do not hold it
 
 
 def _state(end: AuditEntry | None, is_running: bool) -> RoundState:

@@ -37,6 +37,14 @@ it('shows what robots did with what they saw, and takes an order up again withou
   expect(useDrafts.getState().drafts).toEqual({ Ada: { text: 'go to the box', photo: null } });
 });
 
+it('tells how long the robot worked, not how long people let it wait, and nothing where that is not known', async () => {
+  const rounds = [round({ number: 9 }), round({ number: 8, worked_ms: null })];
+  vi.stubGlobal('fetch', network({ history: { json: { rounds, complete: true } } }, asked));
+  render(<HistoryPage />);
+  const shown = await screen.findAllByText('Kim (phone) to Ada');
+  expect(shown.map((by) => by.previousElementSibling?.textContent?.trim())).toEqual(['worked 0:32', 'Done']);
+});
+
 it('tells the next shift what failed, apart from what was done, and who stopped what', async () => {
   const user = userEvent.setup();
   render(<HistoryPage />);

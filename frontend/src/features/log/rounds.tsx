@@ -74,7 +74,7 @@ function Round({ round }: { round: RoundView }) {
   const now = useNow(MINUTE_MS);
   const steps = round.steps ?? [];
   const title = titleOf(round);
-  const { by, words, approved_by: yes, ended_unix_ms: ended = 0 } = round;
+  const { by, words, approved_by: yes, worked_ms: worked } = round;
   return (
     <li className={css.round} data-state={round.state}>
       <p className={css.roundHead}>
@@ -82,7 +82,7 @@ function Round({ round }: { round: RoundView }) {
         <span className={css.roundState}>
           <Icon name={icons[round.state]} size={16} /> {t(`state.${round.state}`)}
         </span>
-        {ended > 0 && <span>{span(ended - round.unix_ms)}</span>}
+        {typeof worked === 'number' && <span>{t('worked', { time: span(worked) })}</span>}
         <span>{by ? t('by', { who: by, robot: round.robot }) : round.robot}</span>
       </p>
       <h3>{title}</h3>
