@@ -8,7 +8,7 @@ import { nameOf, type Candidates, type Mark } from './marks';
 import { PlaceMarks } from './place-marks';
 import type { Trails } from './use-trails';
 import type { Way as Trial } from './use-way';
-import { aside, bounds, boxOf, freeIn, middleOf, roomAt, roomForLabels, textsOf, toScreen, type Label, type Place, type Size, type Viewport } from './viewport';
+import { aside, bounds, boxOf, roomAt, roomForLabels, roomLabel, textsOf, toScreen, type Label, type Place, type Size, type Viewport } from './viewport';
 
 export interface Rover {
   name: string;
@@ -46,7 +46,6 @@ const ROBOT_LEAST_PX = 11;
 const LABEL_BELOW_PX = 20;
 const ASIDE_PX = 17;
 const DOT_PX = 5;
-const ROOM_LETTER_PX = 9.5;
 
 /** The map as a picture; whoever cannot see it has the list. */
 export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, trails, marked, trials, candidates, showScan, zones, wished, drawn }: Props) {
@@ -182,10 +181,7 @@ function Labels({ map, things, rooms, candidates, rovers, view, size, robotPx }:
     const around = roomAt(rooms, thing)?.corners ?? edge; // over walls nothing is written
     return { id: `${number ? 'candidate' : 'thing'} ${thing.id}`, texts, at, others: aside(at, ASIDE_PX), within: boxOf(around, view, size) };
   });
-  const large = rooms.map((room): Label => {
-    const [at, ...others] = [...freeIn(room, things), middleOf(room)].map((place) => toScreen(view, size, place));
-    return { id: `room ${room.name}`, texts: [room.name], at: at ?? { x: 0, y: 0 }, others, letterPx: ROOM_LETTER_PX };
-  });
+  const large = rooms.map((room) => roomLabel(room, things, view, size));
   const isFirst = ({ id }: Label) => id.startsWith('candidate');
   const labels = [...robots, ...named.filter(isFirst), ...large, ...named.filter((one) => !isFirst(one))];
   const marks = rovers.map((rover) => ({ at: toScreen(view, size, rover.pose), radius: robotPx }));

@@ -18,7 +18,7 @@ export function MapFile({ robot }: { robot: string }) {
     try {
       whole = JSON.parse(await file.text());
     } catch {
-      useToasts.getState().show({ tone: 'error', message: t('places.noFile') });
+      useToasts.getState().show({ tone: 'error', message: t('places.noFile'), stands: 'deed' });
       return;
     }
     await attempt(() => loadPlaces(robot, whole));

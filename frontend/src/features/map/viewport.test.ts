@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 
 import { mapInfo } from '@/live/samples';
 
-import { aside, bounds, fit, freeIn, pan, roomAt, roomForLabels, textsOf, thingAt, toMap, toScreen, zoom } from './viewport';
+import { aside, bounds, boxOf, fit, freeIn, pan, roomAt, roomForLabels, textsOf, thingAt, toMap, toScreen, zoom } from './viewport';
 
 const size = { width: 800, height: 400 };
 
@@ -75,10 +75,21 @@ describe('labels on a map', () => {
   it('put the name of a room where no thing is', () => {
     const room = { name: 'hall', corners: [[0, 0], [8, 0], [8, 6], [0, 6]] as [number, number][] };
     const thing = (x: number, y: number) => ({ id: 'a', kind: 'box', description: '', x, y, width: 2, height: 1, aliases: [], found: false });
-    expect(freeIn(room, [thing(1, 1)])[0]).toEqual({ x: 4, y: 3 });
-    const beside = freeIn(room, [thing(4, 3)])[0];
+    expect(freeIn(room, [thing(1, 1)], 40)[0]).toEqual({ x: 4, y: 3 });
+    const beside = freeIn(room, [thing(4, 3)], 40)[0];
     expect(Math.abs((beside?.y ?? 0) - 3)).toBeGreaterThan(0.6);
     expect(beside?.x).toBe(4);
+    expect(freeIn(room, [thing(1.9, 3)], 40)[0]).toEqual({ x: 4, y: 3 });
+    expect(freeIn(room, [thing(1.9, 3)], 15)[0]).not.toEqual({ x: 4, y: 3 }); // of a small map the name takes up more
+  });
+
+  it('are kept off the walls of a room', () => {
+    const corners: [number, number][] = [[0, 0], [8, 0], [8, 6], [0, 6]];
+    const view = { centre: { x: 4, y: 3 }, scale: 50 };
+    const inner = boxOf(corners, view, size);
+    const from = toScreen(view, size, { x: 0, y: 6 });
+    expect([inner.left - from.x, inner.top - from.y]).toEqual([6, 6]);
+    expect(inner.right - inner.left).toBe(8 * 50 - 12);
   });
 
   it('are those of the smallest room at a place', () => {

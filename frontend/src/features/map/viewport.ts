@@ -42,12 +42,17 @@ export const toMap = (view: Viewport, size: Size, point: Place): Place => ({
   y: view.centre.y - (point.y - size.height / 2) / view.scale,
 });
 
-/** What corners enclose, on the screen. */
+/** Half as thick as walls are drawn, and what keeps a name apart from them. */
+const WALL_M = 0.06;
+const FROM_WALL_PX = 3;
+
+/** What corners enclose between the walls that stand on its edge, on the screen. */
 export function boxOf(corners: readonly (readonly [number, number])[], view: Viewport, size: Size): Box {
   const places = corners.map(([x, y]) => toScreen(view, size, { x, y }));
   const xs = places.map(({ x }) => x);
   const ys = places.map(({ y }) => y);
-  return { left: Math.min(...xs), right: Math.max(...xs), top: Math.min(...ys), bottom: Math.max(...ys) };
+  const wall = WALL_M * view.scale + FROM_WALL_PX;
+  return { left: Math.min(...xs) + wall, right: Math.max(...xs) - wall, top: Math.min(...ys) + wall, bottom: Math.max(...ys) - wall };
 }
 
 /** Larger or smaller around a point of the screen, which stays where it is. */
@@ -94,6 +99,7 @@ export const textsOf = ({ description, kind }: MapThing, scale: number): readonl
 /** Parts of a room's width and depth. */
 const PARTS = [0.5, 0.35, 0.65, 0.2, 0.8];
 const ROOM_FOR_NAME_M = { x: 0.7, y: 0.15 };
+const ROOM_LETTER_PX = 9.5;
 const LETTER_PX = 6.5;
 const LINE_PX = 16;
 
@@ -175,16 +181,25 @@ export const aside = ({ x, y }: Place, px: number): readonly Place[] => [
   { x, y: y + px },
 ];
 
-/** Where in a room its name lies over no thing, the middle and what is near to it first. */
-export function freeIn(room: MapRoom, things: readonly MapThing[]): readonly Place[] {
+/** Where in a room its name lies over no thing, or over less, the middle and what is near to it first. */
+export function freeIn(room: MapRoom, things: readonly MapThing[], scale: number): readonly Place[] {
   const middle = middleOf(room);
   const xs = room.corners.map(([x]) => x);
   const ys = room.corners.map(([, y]) => y);
   const between = (all: readonly number[], part: number) => Math.min(...all) + (Math.max(...all) - Math.min(...all)) * part;
   const far = (place: Place) => Math.hypot(place.x - middle.x, place.y - middle.y);
-  const free = ({ x, y }: Place) => !things.some((one) => Math.abs(one.x - x) < one.width / 2 + ROOM_FOR_NAME_M.x && Math.abs(one.y - y) < one.height / 2 + ROOM_FOR_NAME_M.y);
   const places = PARTS.flatMap((right) => PARTS.map((up) => ({ x: between(xs, right), y: between(ys, up) })));
-  return [middle, ...places.sort((a, b) => far(a) - far(b))].filter(free);
+  const near = [middle, ...places.sort((a, b) => far(a) - far(b))];
+  const free = (half: Place) => ({ x, y }: Place) =>
+    !things.some((one) => Math.abs(one.x - x) < one.width / 2 + half.x && Math.abs(one.y - y) < one.height / 2 + half.y);
+  const whole = { x: (room.name.length * ROOM_LETTER_PX) / 2 / scale, y: LINE_PX / 2 / scale };
+  return [...near.filter(free(whole)), ...near.filter(free(ROOM_FOR_NAME_M))];
+}
+
+/** The name of a room. */
+export function roomLabel(room: MapRoom, things: readonly MapThing[], view: Viewport, size: Size): Label {
+  const [at, ...others] = [...freeIn(room, things, view.scale), middleOf(room)].map((place) => toScreen(view, size, place));
+  return { id: `room ${room.name}`, texts: [room.name], at: at ?? { x: 0, y: 0 }, others, letterPx: ROOM_LETTER_PX, within: boxOf(room.corners, view, size) };
 }
 
 /** The middle of a room's corners. */
