@@ -35,7 +35,6 @@ it('makes a robot that waits heard, once more when nobody answers, and no longer
   expect(useToasts.getState().toasts.map((toast) => toast.message)).toEqual(['Ada still waits for you.']);
   expect(notes).toHaveLength(2);
   take(3, [{ ...question, question: 'answered' }, { ...question, id: 'q2', seq: 2, question: 'answered' }]);
-  act(() => useLive.getState().takeChanges([{ kind: 'robot', seq: 5, robot: robot({ name: 'Ada' }) }]));
   expect([document.title, useToasts.getState().toasts]).toEqual(['Parley', []]);
   act(() => vi.advanceTimersByTime(2 * AGAIN_MS));
   expect(notes).toHaveLength(2);

@@ -2,7 +2,8 @@ import { useEffect, useMemo, useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { useWorld } from '@/live/store';
-import { useAsked } from '@/state/asked';
+import type { World } from '@/live/world';
+import { askedIn, useAsked } from '@/state/asked';
 import { usePrefs } from '@/state/prefs';
 import { useToasts } from '@/state/toasts';
 import { nameList } from '@/ui/words';
@@ -49,7 +50,7 @@ export function useHeard(): void {
     if (!ids) return undefined;
     const timer = setInterval(() => {
       const still = ids.split('\n');
-      const stands = () => still.some((id) => known.current?.has(id));
+      const stands = ({ world }: { world: World }) => still.some((id) => id in world.proposals || askedIn(world).some((one) => one.id === id));
       show({ tone: 'error', message: t('waitsLong', { name: who }), stands });
       if (loud) call(t('waitsLong', { name: who }));
     }, AGAIN_MS);

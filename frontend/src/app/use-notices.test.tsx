@@ -1,13 +1,18 @@
 import { act, renderHook } from '@testing-library/react';
-import { expect, it } from 'vitest';
+import { afterEach, beforeEach, expect, it, vi } from 'vitest';
 
-import { robot, snapshot } from '@/live/samples';
+import { entry, robot, snapshot } from '@/live/samples';
 import { useLive } from '@/live/store';
 import { useToasts } from '@/state/toasts';
 
-import { useNotices } from './use-notices';
+import { LEAST_MS, useNotices } from './use-notices';
 
 const shown = () => useToasts.getState().toasts.map((toast) => toast.message);
+const ada = (seq: number, state: 'idle' | 'running', battery = 1) => ({ kind: 'robot' as const, seq, robot: robot({ name: 'Ada', state, battery }) });
+const refused = (seq: number) => ({ kind: 'rejection' as const, seq, robot: 'Ada', message: 'Ada cannot do that.' });
+
+beforeEach(() => useToasts.setState({ toasts: [] }));
+afterEach(() => vi.useRealTimers());
 
 it('takes back that a stopped robot does not move, as soon as it is released', () => {
   useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada', state: 'stopped' })] }));
@@ -18,4 +23,30 @@ it('takes back that a stopped robot does not move, as soon as it is released', (
   expect(shown()).toHaveLength(1);
   act(() => useLive.getState().takeChanges([{ kind: 'robot', seq: 3, robot: robot({ name: 'Ada' }) }]));
   expect(shown()).toEqual([]);
+});
+
+it.each([
+  ['works again', ada(3, 'running')],
+  ['is told something else', { kind: 'chat' as const, seq: 3, entry: entry({ id: 'next', seq: 3, who: 'operator', targets: ['Ada'] }) }],
+])('takes back what was refused once the robot %s, when it could be read', (_, next) => {
+  vi.useFakeTimers();
+  useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada', state: 'idle' })] }));
+  renderHook(useNotices);
+  act(() => useLive.getState().takeChanges([refused(1)]));
+  act(() => useLive.getState().takeChanges([ada(2, 'idle', 0.5)]));
+  act(() => useLive.getState().takeChanges([next]));
+  expect(shown()).toEqual(['Ada cannot do that.']);
+  act(() => vi.advanceTimersByTime(LEAST_MS));
+  act(() => useLive.getState().takeChanges([{ kind: 'robot', seq: 4, robot: robot({ name: 'Bob' }) }]));
+  expect(shown()).toEqual([]);
+});
+
+it('shows what is refused after the server was started anew', () => {
+  useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada' })] }));
+  renderHook(useNotices);
+  act(() => useLive.getState().takeChanges([refused(50)]));
+  act(() => useToasts.setState({ toasts: [] }));
+  act(() => useLive.getState().takeSnapshot(snapshot({ run: 'another', robots: [robot({ name: 'Ada' })] })));
+  act(() => useLive.getState().takeChanges([refused(2)]));
+  expect(shown()).toEqual(['Ada cannot do that.']);
 });

@@ -5,6 +5,9 @@ import type { World } from '@/live/world';
 import { moodOf } from '@/state/mood';
 import { useToasts } from '@/state/toasts';
 
+/** For so long at least one can read it: what it is about may still be on its way. */
+export const LEAST_MS = 5000;
+
 /** Shows what was refused, once each. */
 export function useNotices(): void {
   const notices = useWorld((world) => world.notices);
@@ -14,10 +17,22 @@ export function useNotices(): void {
     for (const notice of notices.filter((one) => one.id > shown.current)) {
       shown.current = notice.id;
       const { robot } = notice;
-      const isStopped = moodOf(robot, useLive.getState().world) === 'stopped';
-      const stands = ({ world }: { world: World }) => moodOf(robot, world) === 'stopped';
       const message = notice.message.startsWith(robot) ? notice.message : `${robot}: ${notice.message}`;
-      show({ tone: 'error', message, ...(isStopped && { stands }) });
+      show({ tone: 'error', message, stands: whileItIsSo(robot, useLive.getState().world) });
     }
   }, [notices, show]);
 }
+
+/** Until a stopped robot is released; until another begins or has done what it was at, or is told something else. */
+function whileItIsSo(robot: string, then: World): (live: { world: World }) => boolean {
+  const mood = moodOf(robot, then);
+  if (mood === 'stopped') return ({ world }) => moodOf(robot, world) === 'stopped';
+  const [said, until] = [lastSaidTo(robot, then), Date.now() + LEAST_MS];
+  return ({ world }) => {
+    const now = moodOf(robot, world);
+    const isOver = now !== mood && (now === 'running' || now === 'idle');
+    return Date.now() < until || (!isOver && lastSaidTo(robot, world) === said);
+  };
+}
+
+const lastSaidTo = (robot: string, { chat }: World) => chat.findLast((entry) => entry.who === 'operator' && entry.targets.includes(robot))?.id;

@@ -158,7 +158,7 @@ function applyOther(world: World, change: Change): World {
     case 'rules':
       return { ...world, ruleChanges: world.ruleChanges + 1 };
     case 'rejection': {
-      const notice = { id: change.seq, robot: change.robot, message: change.message };
+      const notice = { id: (world.notices.at(-1)?.id ?? 0) + 1, robot: change.robot, message: change.message };
       return { ...world, notices: [...world.notices, notice].slice(-KEPT_NOTICES) };
     }
     default:

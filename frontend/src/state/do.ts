@@ -14,13 +14,14 @@ export function explain(error: unknown): string {
 
 /** @returns Whether it worked; if not, the reason was shown. */
 export async function attempt(deed: () => Promise<unknown>): Promise<boolean> {
+  useToasts.getState().anew();
   try {
     await deed();
     return true;
   } catch (error) {
     const message = explain(error);
     const unreached = error instanceof ApiError && error.status === 0;
-    useToasts.getState().show({ tone: 'error', message, ...(unreached && { stands: untilReached() }) });
+    useToasts.getState().show({ tone: 'error', message, stands: unreached ? untilReached() : 'deed' });
     return false;
   }
 }

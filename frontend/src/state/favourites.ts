@@ -59,6 +59,6 @@ export function spelledOut(text: string): string | null {
   const meant = meantBy(text, useLive.getState().world.favourites);
   if (!meant) return text;
   if ('words' in meant) return meant.words;
-  useToasts.getState().show({ tone: 'error', message: i18next.t('favourites:unclear', meant) });
+  useToasts.getState().show({ tone: 'error', message: i18next.t('favourites:unclear', meant), stands: 'deed' });
   return null;
 }

@@ -5,6 +5,7 @@ import { createJSONStorage, persist } from 'zustand/middleware';
 import { sendMessage, type OutgoingMessage } from '@/live/api';
 import { useLive } from '@/live/store';
 import { explain } from './do';
+import { useToasts } from './toasts';
 
 export interface Outgoing extends OutgoingMessage {
   unixMs: number;
@@ -66,6 +67,7 @@ const outbox: StateCreator<Outbox> = (set, get) => {
       const outgoing = { ...message, id: crypto.randomUUID() };
       const begun: Outgoing = { ...outgoing, unixMs: Date.now(), state: 'sending', reason: '' };
       last = begun;
+      useToasts.getState().anew();
       set((now) => ({ messages: [...now.messages, begun] }));
       await inTurn(outgoing);
     },

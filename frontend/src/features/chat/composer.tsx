@@ -144,10 +144,11 @@ function PhotoButton({ isDisabled, onPhoto }: { isDisabled: boolean; onPhoto: (p
   const show = useToasts((state) => state.show);
   const read = async (file: File | undefined) => {
     if (!file) return;
+    useToasts.getState().anew();
     try {
       onPhoto(await readPhoto(file));
     } catch {
-      show({ tone: 'error', message: t('attachTooBig') });
+      show({ tone: 'error', message: t('attachTooBig'), stands: 'deed' });
     }
   };
   return (

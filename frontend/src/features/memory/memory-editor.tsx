@@ -80,10 +80,11 @@ function PhotoChoice({ photo, onPhoto }: { photo: Photo | null; onPhoto: (photo:
   const show = useToasts((state) => state.show);
   const read = async (file: File | undefined) => {
     if (!file) return;
+    useToasts.getState().anew();
     try {
       onPhoto(await readPhoto(file));
     } catch {
-      show({ tone: 'error', message: t('photoUnusable') });
+      show({ tone: 'error', message: t('photoUnusable'), stands: 'deed' });
     }
   };
   if (photo) {

@@ -98,7 +98,7 @@ function Passkeys({ account, onChanged }: { account: MyAccount; onChanged: () =>
       setName('');
       onChanged();
     } catch {
-      show({ tone: 'error', message: t('passkeyNotMade') });
+      show({ tone: 'error', message: t('passkeyNotMade'), stands: 'deed' });
     }
   };
   return (

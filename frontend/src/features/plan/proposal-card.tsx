@@ -84,7 +84,7 @@ function useNoticeWhenGone(id: string, editing: boolean) {
     if (!editing) return;
     return useLive.subscribe(({ world }, before) => {
       if (ownRef.current || id in world.proposals || !(id in before.world.proposals)) return;
-      useToasts.getState().show({ tone: 'error', message: t('decidedMeanwhile') });
+      useToasts.getState().show({ tone: 'error', message: t('decidedMeanwhile'), stands: 'deed' });
     });
   }, [id, editing, t]);
   return ownRef;

@@ -20,6 +20,7 @@ export function useSaving() {
   const { t } = useTranslation('plan');
   const show = useToasts((state) => state.show);
   return async (robot: string, calls: readonly ActionCall[], revision: number, said = t('saved')): Promise<Outcome> => {
+    useToasts.getState().anew();
     try {
       await putSteps(robot, calls, revision);
       if (said) show({ tone: 'info', message: said });
@@ -28,7 +29,7 @@ export function useSaving() {
       const conflict = error instanceof ApiError && error.status === 409;
       const name = ownPlan(robot)?.graph_name;
       const stands = () => ownPlan(robot)?.graph_name === name && ownPlan(robot)?.state !== 'ended';
-      show({ tone: 'error', message: conflict ? t('conflict') : explain(error), ...(conflict && { stands }) });
+      show({ tone: 'error', message: conflict ? t('conflict') : explain(error), stands: conflict ? stands : 'deed' });
       return conflict ? 'conflict' : 'refused';
     }
   };
