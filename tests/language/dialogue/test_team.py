@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from parley.language.dialogue.team import Part, team_wish
+from parley.language.dialogue.team import Part, asked_by_name, team_wish
 from parley.language.lexicon import load_data
 
 ROBOTS = ("Ada", "Kim")
@@ -81,3 +81,27 @@ def test_what_is_asked_about_robots_each_of_them_is_asked(say: str, robot: str, 
 )
 def test_other_questions_are_left_to_whoever_hears_them(say: str) -> None:
     assert team_wish(say, ROBOTS) is None
+
+
+@pytest.mark.parametrize(
+    ("say", "asked"),
+    [
+        ("Kim, where are you?", "where are you?"),
+        ("hey Kim, how full is your battery?", "how full is your battery?"),
+        ("Kim what can you do", "what can you do?"),
+        ("What are you doing, Kim?", "What are you doing?"),
+        ("Kim: what do you see?", "what do you see?"),
+    ],
+)
+def test_a_question_is_for_whom_it_calls_whoever_hears_it(say: str, asked: str) -> None:
+    wish = asked_by_name(say, ROBOTS, "Ada")
+    assert wish is not None
+    assert (wish.kind, wish.robot, wish.about) == ("about", "Kim", asked)
+    assert asked_by_name(say, ROBOTS, "Kim") is None
+
+
+@pytest.mark.parametrize(
+    "say", ["Kim, go to the gate", "Kim, is the gate open?", "Ada and Kim, where are you?", "where are you?"]
+)
+def test_orders_and_questions_of_other_things_are_left_to_whoever_understands_them(say: str) -> None:
+    assert asked_by_name(say, ROBOTS, "Ada") is None

@@ -118,7 +118,7 @@ class Missions:
             halts: How often each robot had been told to stop when it was said.
             team: All it was said to, if that is more than one.
         """
-        wish = self._talk.wish(said.message)
+        wish = self._talk.wish(said.message, target)
         if wish is None and len(team) < 2:
             return False
         try:

@@ -13,7 +13,14 @@ from parley.agents.presence import Presence
 from parley.gate.orders import UNSURE_OF_ALL
 from parley.language.base import Language, Situation
 from parley.language.dialogue.state import Order
-from parley.language.dialogue.team import Part, TeamWish, is_in_turn, is_of_several, team_wish
+from parley.language.dialogue.team import (
+    Part,
+    TeamWish,
+    asked_by_name,
+    is_in_turn,
+    is_of_several,
+    team_wish,
+)
 from parley.language.stop_words import calls_to_stop
 from parley.latest import Latest
 from parley.messages.chat import ActionCall, ChatAction, ChatInput
@@ -101,11 +108,12 @@ class TeamTalk:
         self._survey, self._offered = survey, offered
         self._given_on: Latest[str, _GivenOn] = Latest()
 
-    def wish(self, message: str) -> TeamWish | None:
-        """How words spread work over robots; None if they do not."""
+    def wish(self, message: str, hearer: str = "") -> TeamWish | None:
+        """How words spread work over robots, or ask another one than `hearer`; None if they do not."""
         if self._survey is None or calls_to_stop(message):
             return None
-        return team_wish(message, self._presence.ever())
+        robots = self._presence.ever()
+        return team_wish(message, robots) or (asked_by_name(message, robots, hearer) if hearer else None)
 
     async def mission(
         self, wish: TeamWish | None, target: str, said: ChatInput, team: Sequence[str]

@@ -15,11 +15,11 @@ from typing import Final, Literal
 from parley.language.builtin.lexicon import lemmas, lexicon
 from parley.language.builtin.tokens import tokenize
 from parley.language.control import control_of
-from parley.language.dialogue.questions import plain, question_of
+from parley.language.dialogue.questions import asks, plain, question_of
 from parley.language.lexicon import load_data
 from parley.language.stop_words import calls_to_stop
 
-__all__ = ["Part", "TeamWish", "is_in_turn", "is_of_several", "team_wish"]
+__all__ = ["Part", "TeamWish", "asked_by_name", "is_in_turn", "is_of_several", "team_wish"]
 
 
 Who = Literal["one", "some", "rest", "all", "each", "named"]
@@ -103,6 +103,19 @@ def team_wish(message: str, robots: Sequence[str]) -> TeamWish | None:
     return replace(wish, count=words.count(text))
 
 
+def asked_by_name(message: str, robots: Sequence[str], hearer: str) -> TeamWish | None:
+    """A question that calls one robot, heard by another one: that cannot answer for it."""
+    words = _Words(tuple(robots))
+    text = words.begun(re.sub(r"\s+", " ", message.replace("’", "'")).strip(" .!?"))
+    found = words.calling(text)
+    if found is None or found[0] == hearer:
+        return None
+    bare = plain(tokenize(found[1]))
+    if question_of(bare) is None or not asks(message, bare):
+        return None
+    return TeamWish("about", about=f"{found[1]}?", robot=found[0])
+
+
 @cache
 def _data() -> dict[str, list[str]]:
     return {name: text.splitlines() for name, text in load_data("team").items() if isinstance(text, str)}
@@ -138,6 +151,14 @@ class _Words:
         told = "|".join(self.of(name) for name in ("all", "each", "one", "between"))
         said = " ".join(found[0] for found in re.finditer(rf"\b(?:{told})\b", text, re.IGNORECASE)).lower()
         return next((number for word, number in _NUMBERS.items() if word in said.split()), 0)
+
+    def calling(self, text: str) -> tuple[str, str] | None:
+        """The one robot that is called, first or behind a comma at the end, and what else is said."""
+        names = re.findall(rf"\b{self._names}\b", text, re.IGNORECASE)
+        found = self._match(rf"(?P<robot>{self._names})\W+(?P<said>.+)", text) or self._match(
+            rf"(?P<said>.+?), ?(?P<robot>{self._names})", text
+        )
+        return (self._robots[found["robot"].lower()], found["said"]) if found and len(names) == 1 else None
 
     # -- questions -------------------------------------------------------------------------------------
 
