@@ -93,14 +93,15 @@ describe.skipIf(!hasBrowser)('somebody new, in the home as it is opened', () => 
 
   it('releases both, tells both the same, and sees what each says', async () => {
     const page = await stage.open(sizes.phone);
-    for (const robot of ROBOTS) {
-      await page.getByRole('button', { name: 'Release…' }).first().tap();
-      await page.getByRole('button', { name: 'Yes, it is safe' }).tap();
-      await page.getByText(`${robot} is stopped`).waitFor({ state: 'detached' });
-    }
+    await page.getByText('Standing still: 2 of 2').waitFor();
+    await page.getByRole('button', { name: 'Release all…' }).tap();
+    await page.getByRole('button', { name: 'Yes, it is safe' }).tap();
+    await page.getByText('2 robots are stopped').waitFor({ state: 'detached' });
     await page.getByRole('button', { name: 'Several' }).tap();
     await page.getByRole('group', { name: 'Robots you talk to' }).getByRole('button', { name: /^Ruth/ }).tap();
     await page.getByRole('textbox', { name: 'Write to David and Ruth' }).waitFor();
+    await page.reload();
+    await page.getByRole('textbox', { name: 'Write to David and Ruth' }).waitFor(); // nobody else is written to unawares
     await say(page, 'cancel everything');
     for (const robot of ROBOTS) {
       await expect.poll(async () => (await robotNamed(stage, robot))?.state, { timeout: PATIENCE_MS }).toBe('idle');

@@ -1,5 +1,6 @@
-/** Which robots the person is talking to. */
+/** Which robots the person is talking to; it outlives that the page is loaded again, and goes with its tab. */
 import { create } from 'zustand';
+import { createJSONStorage, persist } from 'zustand/middleware';
 
 import { useWorld } from '@/live/store';
 
@@ -12,12 +13,22 @@ interface Selection {
   all: (names: readonly string[]) => void;
 }
 
-export const useSelectionStore = create<Selection>()((set) => ({
-  chosen: [],
-  only: (name) => set({ chosen: [name] }),
-  toggle: (name, names) => set((now) => ({ chosen: toggled(effective(now.chosen, names), name) })),
-  all: (names) => set({ chosen: names }),
-}));
+export const useSelectionStore = create<Selection>()(
+  persist(
+    (set) => ({
+      chosen: [],
+      only: (name) => set({ chosen: [name] }),
+      toggle: (name, names) => set((now) => ({ chosen: toggled(effective(now.chosen, names), name) })),
+      all: (names) => set({ chosen: names }),
+    }),
+    {
+      name: 'parley.chosen',
+      version: 1,
+      storage: createJSONStorage(() => sessionStorage),
+      partialize: ({ chosen }) => ({ chosen }),
+    },
+  ),
+);
 
 /** The chosen robots that exist; the first one when none of them does. */
 export function effective(chosen: readonly string[], names: readonly string[]): readonly string[] {

@@ -1,4 +1,4 @@
-import { act, fireEvent, render, screen, waitFor } from '@testing-library/react';
+import { act, cleanup, fireEvent, render, screen, waitFor } from '@testing-library/react';
 import userEvent from '@testing-library/user-event';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 
@@ -29,7 +29,16 @@ beforeEach(() => {
   });
 });
 
-afterEach(() => vi.useRealTimers());
+afterEach(() => {
+  vi.useRealTimers();
+  vi.restoreAllMocks();
+});
+
+/** As on a large screen. */
+const withRoom = () => {
+  const matches = (query: string) => !query.includes('max-height');
+  vi.spyOn(window, 'matchMedia').mockImplementation((query) => Object.assign(new EventTarget(), { matches: matches(query), media: query }) as MediaQueryList);
+};
 
 const stop = (state: StopView['state'], release: StopView['release'] = 'none'): StopView => ({
   state,
@@ -111,7 +120,18 @@ describe('stopping', () => {
     expect(sent.length).toBeLessThanOrEqual(tried + 1);
   });
 
+  it('tells of two in one line where there is little room, and of each where there is more', () => {
+    show('at_rest', 'at_rest');
+    screen.getByText(/^2 robots are stopped/);
+    screen.getByRole('button', { name: 'Release all…' });
+    cleanup();
+    withRoom();
+    show('at_rest', 'at_rest');
+    expect(screen.getAllByText(/ is stopped and stays so/)).toHaveLength(2);
+  });
+
   it('says of each robot what the stop was answered, before the live stream does', async () => {
+    withRoom();
     robots = { Ada: 'stands', Bob: 'moves' };
     const user = show('none', 'none');
     await user.click(screen.getByRole('button', { name: 'Stop all' }));

@@ -5,25 +5,27 @@ import { useWorld } from '@/live/store';
 import { type StoppedRobot, stoppedRobots, useStopping } from '@/state/stopping';
 import { Button } from '@/ui/button';
 import { Icon } from '@/ui/icon';
+import { useLayout } from '@/ui/use-media';
 import { clockTime, nameList } from '@/ui/words';
 
 import { Release } from './release';
 import css from './stop.module.css';
 
 /** So many are told of one by one; more would leave no room for the rest of the page. */
-const SINGLY = 2;
+const SINGLY = { phone: 1, tablet: 2, desktop: 2 };
 
 /** What became of a stop, robot by robot, and the way out of it. */
 export function StopBanner() {
   const robots = useWorld((world) => world.robots);
   const answer = useStopping((state) => state.answer);
   const stopped = stoppedRobots(robots, answer);
+  const layout = useLayout();
   return (
     <div className={css.banners} role="status" aria-live="assertive">
       <Pending />
       {answer?.kept === false && <NotKept />}
       <Troubled />
-      {stopped.length > SINGLY ? (
+      {stopped.length > SINGLY[layout] ? (
         <Many robots={stopped} />
       ) : (
         stopped.map((robot) => <Stopped key={robot.name} robot={robot} />)
