@@ -137,7 +137,11 @@ async def test_a_name_with_what_comes_first_is_no_answer_to_which_one(words: str
     assert bool(made.queue) is answers, made.message_response
 
 
-@pytest.mark.parametrize("words", ["no", "none of them", "neither, thanks", "oh nothing"])
+@pytest.mark.parametrize(
+    "words",
+    ["no", "none of them", "neither, thanks", "oh nothing", "never mind", "forget it", "no thanks",
+     "nevermind", "oh, I changed my mind"],
+)  # fmt: skip
 async def test_a_choice_of_none_ends_the_question(words: str) -> None:
     asked = Dialogue(asked=Asked("go to it", ("box in the hall", "gate")))
     assert await said(words, asked) == "All right, then I leave it."

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Final
 
+from parley.gate.assent import assent_of
 from parley.language.base import Situation
 from parley.language.builtin.decision import Answer, Ask, Decision, Do, Edit, Forget, Remember, Told
 from parley.language.builtin.facts import Place
@@ -371,7 +372,9 @@ def _asked_again(
         return None
     if not {*asked.choices} <= {item.description for item in situation.objects}:
         return None
-    if _NONE.fullmatch(plain(tokens, (situation.robot,))):
+    bare = plain(tokens, (situation.robot,))
+    gives_up = assent_of(situation.message, situation.robots) is False and not _OTHER.search(bare)
+    if gives_up or _NONE.fullmatch(bare):
         return Answer("All right, then I leave it.")
     return Ask(f"I did not understand that. {which_one(asked.choices)}")
 
@@ -380,6 +383,8 @@ _NONE: Final = re.compile(
     r"(?:(?:no|nope|sorry|oh|well) )*(?:no|nope|none|neither|nothing|not any)"
     r"(?: of (?:them|those|these|the two))?(?: thanks| thank you| please)?"
 )
+_OTHER: Final = re.compile(r"\b(?:not|wrong)\b")
+"""With it a no may be to one of them alone: "not that one"."""
 _BY_HAND: Final = {
     "GIVE": ("give", "hand"),
     "PUT": ("put", "place", "lay"),
