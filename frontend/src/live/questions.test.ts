@@ -49,6 +49,18 @@ describe('the conversation with several robots', () => {
     ];
     expect(conversation(chat, ['Ada', 'Bob']).map((one) => one.id)).toEqual(['both', 'all']);
   });
+
+  it('holds what another one says that was called, but not what one says that is not spoken to any more', () => {
+    const reply = (id: string, robot: string, reply_to: string) => entry({ id, who: 'robot', targets: [robot], reply_to });
+    const chat = [
+      entry({ id: 'Bob, stop', who: 'operator', targets: ['Ada'] }),
+      reply('stopped', 'Bob', 'Bob, stop'),
+      entry({ id: 'stop', who: 'operator', targets: ['Ada', 'Bob'] }),
+      reply('stopped too', 'Bob', 'stop'),
+      reply('of old', 'Bob', ''),
+    ];
+    expect(conversation(chat, ['Ada']).map((one) => one.id)).toEqual(['Bob, stop', 'stopped', 'stop']);
+  });
 });
 
 describe('offered answers', () => {

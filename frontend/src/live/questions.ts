@@ -31,11 +31,15 @@ export function answering(questions: Questions, chosen: readonly string[]): Answ
   return { question, robots, others: chosen.filter((robot) => !questions.has(robot)) };
 }
 
-/** What was said to or by any of the chosen robots, or to nobody in particular; each thing once. */
+/**
+ * What was said to or by any of the chosen robots, or to nobody in particular; each thing once. Where another robot was
+ * called in what was said to them, also what that one replied.
+ */
 export function conversation(chat: readonly ChatEntry[], chosen: readonly string[]): readonly ChatEntry[] {
-  return chat.filter(
-    (entry) => entry.targets.length === 0 || entry.targets.some((robot) => chosen.includes(robot)),
-  );
+  const isOwn = ({ targets }: ChatEntry) => targets.length === 0 || targets.some((robot) => chosen.includes(robot));
+  const said = new Map(chat.filter((entry) => entry.who === 'operator' && isOwn(entry)).map((entry) => [entry.id, entry.targets]));
+  const wasCalled = ({ reply_to, targets }: ChatEntry) => said.has(reply_to) && !targets.some((robot) => said.get(reply_to)?.includes(robot));
+  return chat.filter((entry) => isOwn(entry) || wasCalled(entry));
 }
 
 /**

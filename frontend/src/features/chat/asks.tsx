@@ -57,16 +57,24 @@ export function Asks({ chosen, asked, onChoose }: Props) {
       {others}
     </Proposal>
   ) : (
-    <Question key={shown.id} entry={shown} onChoose={onChoose}>
+    <Question key={shown.id} entry={shown} isOneOfMany={chosen.length > 1} onChoose={onChoose}>
       {others}
     </Question>
   );
 }
 
-function Question({ entry, onChoose, children }: { entry: ChatEntry; onChoose: Choose; children: React.ReactNode }) {
+interface QuestionProps {
+  entry: ChatEntry;
+  /** Whether others are talked to as well: then it has to be said whose question it is. */
+  isOneOfMany: boolean;
+  onChoose: Choose;
+  children: React.ReactNode;
+}
+
+function Question({ entry, isOneOfMany, onChoose, children }: QuestionProps) {
   const { t, i18n } = useTranslation('chat');
   const name = nameList(entry.targets, i18n.language);
-  const isRead = useInSight(entry.id);
+  const isRead = useInSight(entry.id) && !isOneOfMany;
   return (
     <section className={css.ask} aria-label={t('questionHere', { name })}>
       <p className={isRead ? 'hidden' : css.wishes} ref={isRead ? null : byKeys}>
