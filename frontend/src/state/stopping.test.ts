@@ -18,3 +18,22 @@ it('a stop outlives the page that sent it, and nobody closes the page unasked be
   useStopping.getState().callOff();
   expect(leaving()).toBe(true);
 });
+
+it('what became of a stop is not told any more once it was released, however late that is heard', async () => {
+  const body = (options: RequestInit) => JSON.parse(String(options.body)) as { command: string; id: string };
+  const answers: (() => void)[] = [];
+  const stopped = (id: string) => new Response(JSON.stringify({ ok: true, kept: true, id, robots: { Ada: 'stands' } }));
+  vi.stubGlobal('fetch', (_path: string, options: RequestInit) => {
+    const { command, id } = body(options);
+    return command === 'reset' ? Promise.resolve(stopped(id)) : new Promise((settle) => answers.push(() => settle(stopped(id))));
+  });
+  const first = useStopping.getState().stop(['Ada']);
+  await useStopping.getState().reset(['Ada']);
+  answers[0]?.();
+  await first;
+  expect(useStopping.getState().answer).toBeNull();
+  const second = useStopping.getState().stop(['Ada']); // this one holds
+  answers[1]?.();
+  await second;
+  expect(useStopping.getState().answer?.robots).toEqual({ Ada: 'stands' });
+});

@@ -53,7 +53,11 @@ export const useStopping = create<Stopping>()((set, get) => {
     if (pending?.id === id) set({ pending: { ...pending, state: 'late' } });
   };
   let forget: ReturnType<typeof setTimeout> | undefined;
+  const pressed = new Set<string>();
+  /** Stops that were released since: what of them is heard later is not so any more. */
+  const over = new Set<string>();
   const take = (answer: StopAnswer) => {
+    if (over.has(answer.id)) return;
     set({ answer, pending: get().pending?.id === answer.id ? null : get().pending });
     clearTimeout(forget);
     forget = setTimeout(() => set({ answer: null }), TOLD_MS);
@@ -70,6 +74,7 @@ export const useStopping = create<Stopping>()((set, get) => {
       const now = Date.now();
       if (isAgain(get().pending, targets, now)) return;
       const id = crypto.randomUUID();
+      pressed.add(id);
       const mayReach = stopOnLine(targets, id) || useLive.getState().connection === 'connected';
       set({ pending: { id, targets, sinceMs: now, state: mayReach ? 'sending' : 'late' } });
       setTimeout(() => late(id), LATE_MS);
@@ -84,7 +89,9 @@ export const useStopping = create<Stopping>()((set, get) => {
       }
     },
     reset: async (targets) => {
+      const before = [...pressed];
       await sendReset(targets, crypto.randomUUID());
+      before.forEach((id) => over.add(id));
       set({ pending: null, answer: null });
     },
     callOff: () => set({ pending: null }),
