@@ -212,3 +212,17 @@ async def test_how_something_is_now_only_a_look_can_tell_and_that_is_offered(
     told = (MemoryEntry(name="gate", data="The gate is clear"),)
     known = await ENGINE.interpret(replace(situation, memory=told))
     assert not known.offer or not looks.endswith("clear")
+
+
+@pytest.mark.parametrize(
+    ("message", "reply"),
+    [
+        ("how far is the gate?", "The gate is about 9 metres from me"),
+        ("what is in the hall?", "By my map: the box in the hall."),
+        ("what is next to the gate", "I cannot answer that."),
+        ("how far is it?", "About 40 seconds more for this step."),
+    ],
+)
+async def test_the_map_tells_how_far_and_what_is_where(message: str, reply: str) -> None:
+    dialogue = Dialogue("running", RUNS, left_s=40.0) if " it" in message else Dialogue()
+    assert (await said(message, dialogue)).startswith(reply)

@@ -8,19 +8,23 @@ from datetime import datetime
 from typing import Final
 
 from parley.language.base import Situation
-from parley.language.builtin.lexicon import stem
+from parley.language.builtin.lexicon import lexicon, stem
 from parley.language.builtin.saying import counted, with_article
-from parley.language.dialogue.places import room_of, whereabouts
+from parley.language.builtin.tokens import tokenize
+from parley.language.dialogue.mentions import named
+from parley.language.dialogue.places import distance_m, in_room, lies, room_of, rooms, whereabouts
 from parley.language.dialogue.questions import Question
 from parley.language.dialogue.state import Deed, Dialogue, Order
 from parley.messages.status import ActionInfo, PlanStep
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
+from parley.world.whereabouts import called
 
 __all__ = ["answer", "deed_words", "differences", "listed", "step_words"]
 
 _OPEN: Final = ("queued", "running", "waiting", "paused")
 _MOST: Final = 5
+_BESIDE_M: Final = 2.0
 _IDLE: Final = "I have nothing to do at the moment."
 
 
@@ -363,6 +367,33 @@ def _how_long(situation: Situation, about: str) -> str:
     return f"{_left_time(dialogue).strip() or 'I have only just begun: I can tell in a moment.'}{more}"
 
 
+def _how_far(situation: Situation, about: str) -> str:
+    """How far something of the map is; of "it", how long the way still takes."""
+    things = _things(situation, about)
+    if len(things) != 1:
+        return _how_long(situation, about) if situation.dialogue.steps else ""
+    name = called(things[0].description)
+    return f"{name[:1].upper()}{name[1:]} is {lies(things[0], situation.objects, situation.robot_pose)}."
+
+
+def _whats_in(situation: Situation, about: str) -> str:
+    """What the map knows in a room, or around a thing."""
+    room = about.lower() if about.lower() in rooms(situation.objects) else ""
+    things = _things(situation, about) if not room else ()
+    found = in_room(room, situation.objects, situation.robot_pose) if room else ()
+    if len(things) == 1:
+        at = Pose2D(things[0].x_m, things[0].y_m, 0.0)
+        near = sorted(situation.objects, key=lambda item: distance_m(item, at))
+        found = tuple(item for item in near if item is not things[0] and distance_m(item, at) < _BESIDE_M)
+    names = [called(item.description) for item in found[:_MOST]]
+    return f"By my map: {listed(names)}. What is there now I only see when I look." if names else ""
+
+
+def _things(situation: Situation, about: str) -> tuple[MapObject, ...]:
+    names = named(tokenize(about), situation.objects, lexicon())
+    return names[0].things if len(names) == 1 else ()
+
+
 def _battery(situation: Situation, about: str) -> str:
     battery = situation.dialogue.battery
     return (
@@ -452,6 +483,7 @@ _TOPICS: Final[dict[str, Callable[[Situation, str], str]]] = {
     "why_not_go": _why_not_go, "why": _why, "what_doing": _doing, "what_left": _left, "what_did": _did,
     "before_stop": _before_stop, "beside_step": _beside,
     "what_seen": _seen, "what_else_seen": _else, "seen_thing": _seen_thing, "how_long": _how_long,
+    "how_far": _how_far, "whats_in": _whats_in,
     "battery": _battery, "able": _able, "name": _name, "time": _time, "told_about": _told_about,
     "told_all": _told_all, "difference": _difference,
     "hear": lambda situation, about: "Yes, I hear you: I read every word.",
