@@ -77,7 +77,7 @@ def command(
     robots: Annotated[
         str,
         typer.Option(
-            help="Which of the world's robots there are, e.g. David,Ruth; default: on the page all of them."
+            help="Which of the world's robots there are, with commas; default: on the page all of them."
         ),
     ] = "",
     seed: Annotated[
