@@ -181,6 +181,7 @@ async def test_what_another_robot_does_already_is_asked_about_and_nothing_older_
 async def test_who_was_stopped_goes_with_the_yes_to_something_else_and_not_by_a_step_left_out() -> None:
     async with hall() as home:
         await home.say("go to Area A", "TIAGo")
+        await home.observer.until(lambda: drives(home, "TIAGo"), timeout_s=PATIENCE_S)
         await home.say("stop", "TIAGo")
         await home.state("paused", "TIAGo")
         await home.say("go to the pump instead", "TIAGo")
@@ -189,6 +190,7 @@ async def test_who_was_stopped_goes_with_the_yes_to_something_else_and_not_by_a_
         assert home.distance_m("pump_1", "TIAGo") < 1.6
         assert not any("still standing" in said.message for said in home.observer.said)
         await home.say("go to Area A, then to Area B", "TIAGo")
+        await home.observer.until(lambda: drives(home, "TIAGo"), timeout_s=PATIENCE_S)
         await home.say("stop", "TIAGo")
         await home.say("skip it", "TIAGo")
         await home.observer.until(
@@ -219,6 +221,14 @@ async def test_who_follows_begins_when_the_other_is_there() -> None:
         await home.observer.until(lambda: waits(home, "Spot") == "finished", timeout_s=PATIENCE_S)
         assert {step.state for step in home.observer.plans["Leo"].steps} == {"finished"}
         assert set(await home.done("Spot")) == {"finished"}
+
+
+def drives(home: House, robot: str) -> bool:
+    """Whether a robot is under way: before, it only finds out where to."""
+    plan = home.observer.plans.get(robot)
+    return plan is not None and any(
+        s.action.name == "NavigateTo" and s.state == "running" for s in plan.steps
+    )
 
 
 def waits(home: House, robot: str) -> str:
