@@ -40,6 +40,14 @@ PLANS = {
     "pass_to hammer operator",
     "fetch the hammer from the yard and hand it to Kim": "drive_to yard, find_obj hammer, grasp hammer, "
     "drive_to office, pass_to hammer Kim",
+    "give the hammer to Kim": "find_obj hammer, grasp hammer, drive_to office, pass_to hammer Kim",
+    "take the hammer, go to the yard and put it on the desk": "find_obj hammer, grasp hammer, drive_to yard, "
+    "drive_to desk, put_down hammer desk",
+    "go to the woman in the yard and follow her": "drive_to yard, find_person woman, follow woman",
+    "find and follow the woman": "find_person woman, follow woman",
+    "meet Kim in the yard and follow him": "drive_to yard, find_person Kim, follow Kim",
+    "take the hammer from the yard and give it to Kim by the desk": "drive_to yard, grasp hammer, "
+    "drive_to desk, pass_to hammer Kim",
     "follow the woman in the yard": "drive_to yard, find_person woman, follow woman",
     "say hello to Bo in the yard": "drive_to yard, say hello",
 }
@@ -53,9 +61,7 @@ def test_with_hands_of_its_own_a_robot_fetches_finds_and_hands_over(said: str) -
     assert ", ".join(done) == PLANS[said]
 
 
-@pytest.mark.parametrize(
-    "said", ["give it to Kim", "give the hammer to Kim", "bring the yard to the yard", "put it on the desk"]
-)
+@pytest.mark.parametrize("said", ["give it to Kim", "bring the yard to the yard", "put it on the desk"])
 def test_what_it_does_not_hold_and_cannot_find_it_does_not_hand_over(said: str) -> None:
     before = situation(said, catalogue=HANDS, memory=IN_MIND, history=())
     assert isinstance(ENGINE.decide(before), Ask)

@@ -19,6 +19,7 @@ from parley.language.builtin.listings import listing
 from parley.language.builtin.planner import Planner, contradicted, orders_of
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.saying import which_one
+from parley.language.builtin.sights import sight_asked_for
 from parley.language.builtin.skills import Skills
 from parley.language.builtin.structure import Part, Unclear, arranged
 from parley.language.builtin.tokens import Token, spoken, tokenize
@@ -73,7 +74,7 @@ def decide(
         return Remember((rule,))
     made = _alone(situation, parts, skills, lexicon, reader)
     if isinstance(made, Answer) and not made.sources and "question" in whole.acts and not situation.question:
-        made = _looking(situation, tokens, lexicon, again) or made
+        made = _looking(situation, tokens, skills, lexicon, again) or made
     if isinstance(made, Ask) and (promise := policy.promised(situation, lexicon, again)) is not None:
         return promise
     made = policy.afterwards(made, situation, whole, tokens, lexicon)
@@ -101,9 +102,17 @@ def _for_who_is_there(situation: Situation, told: tuple[Told, ...], again: Again
     return replace(orders[0], notes=notes, told=(*orders[0].told, *told))
 
 
-def _looking(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, again: Again) -> Ask | None:
-    """To have a look is offered where only that tells."""
-    order = look_asked_for(tokens, named(tokens, situation.objects, lexicon))
+def _looking(
+    situation: Situation, tokens: Sequence[Token], skills: Skills, lexicon: Lexicon, again: Again
+) -> Do | Ask | None:
+    """A look where only that tells: what is there is looked at, how something is is offered to be."""
+    names = named(tokens, situation.objects, lexicon)
+    sight = sight_asked_for(situation, tokens, names, lexicon)
+    if sight is not None and sight.frame in skills and not situation.queue:
+        builder = Builder(situation, skills, lexicon, ())
+        deeds = builder.deeds(sight)
+        return deeds if isinstance(deeds, Ask) else Do(tuple(deeds), tuple(builder.notes), (), ())
+    order = look_asked_for(tokens, names)
     made = again(order) if order else None
     if not isinstance(made, Do) or {*made.robots} - {situation.robot}:
         return None
@@ -175,6 +184,7 @@ def _alone(
     now = [MemoryEntry(name=fact.name, data=fact.text) for fact in told]
     known = places((*situation.memory, *now), reader, lexicon)
     builder = Builder(situation, skills, lexicon, known)
+    builder.tells = any("told" in part.reading.acts for part in parts)
     thing, person = policy.spoken_of(situation, known, lexicon)
     visits = all(wish.frame in ("GO", "LOOK", "PHOTO") for wish in orders)
     builder.recall(thing or (policy.subject_of(situation, parts, lexicon) if visits else None), person)

@@ -9,7 +9,8 @@ from parley.language.builtin.checks import Look, check
 from parley.language.builtin.decision import Ask, Deed
 from parley.language.builtin.doing import Doing, slot_of
 from parley.language.builtin.fillers import Filler
-from parley.language.builtin.grounding import Value
+from parley.language.builtin.grounding import WITHIN, Value, is_somebody
+from parley.language.builtin.handling import HANDLED
 from parley.language.builtin.lexicon import stem
 from parley.language.builtin.own_action import OwnAction
 from parley.language.builtin.owned import owned
@@ -39,10 +40,19 @@ class Builder(Doing):
             often = self._logic(wish) or self.times(wish)
             made = often if isinstance(often, Ask) else self._owned(wish, wish.own)
             return made if isinstance(made, Ask) or isinstance(often, Ask) else made * often
+        wish = self._seen(wish)
         times = self._strange(wish) or self.times(wish)
         if isinstance(times, Ask):
             return times
         wish = self._placed(self._told_apart(wish))
+        thing, words = wish.one("T"), self.lexicon.classes["pronouns"]
+        if (
+            wish.frame in (*HANDLED, "BRING")
+            and thing is not None
+            and {*thing.words} <= words
+            and self.in_hand
+        ):
+            self.last_thing = self.in_hand  # "take the box, go to the desk and put it there"
         values = self._values(wish)
         if isinstance(values, Ask):
             return values
@@ -65,8 +75,21 @@ class Builder(Doing):
                 told = role in values and (values[role].things or values[role].point)
                 self.last_thing = values[role] if told else self.last_thing
             self.last_thing = values.get("T", self.last_thing)
+            if wish.frame == "FIND" and "T" in values and self.is_person(wish.all("T"), values["T"]):
+                self.last_person = values["T"]
             made = self._planned(wish, values)
         return made if isinstance(made, Ask) else made * times
+
+    def _seen(self, wish: Wish) -> Wish:
+        """Whom the map does not know is looked for, and what is to be shown is looked at without a camera."""
+        thing = wish.one("T")
+        if wish.frame == "PHOTO" and "PHOTO" not in self.skills and {*wish.verb.split()} & {"show", "see"}:
+            wish = replace(wish, frame="LOOK")
+        if wish.frame == "LOOK" and thing is not None and not wish.has("K") and "FIND" in self.skills:
+            known = link(thing.words, thing.head, self.situation.objects, self.lexicon).things
+            if is_somebody(thing.words[thing.head]) and not known:
+                return replace(wish, frame="FIND")
+        return wish
 
     @staticmethod
     def _is_place(thing: MapObject | None) -> bool:
@@ -90,10 +113,23 @@ class Builder(Doing):
 
     def _placed(self, wish: Wish) -> Wish:
         """With the place of who or what no map holds as a role of its own: "the cup on the desk"."""
+        goal = wish.one("G") if wish.frame == "GO" and "FIND" in self.skills else None
+        parts = self._standing(goal, "L") if goal is not None else ()
+        if parts and self.is_person(
+            [parts[0]], Value("", "")
+        ):  # "go to the girl in the hall": she is met there
+            wish = replace(wish, frame="FIND", fillers=(replace(parts[0], role="T"), parts[1]))
+        goal = wish.one("G") if wish.frame in ("BRING", "GIVE") and not wish.has("RL") else None
+        parts = self._standing(goal, "L") if goal is not None else ()
+        if parts and self.is_person([parts[0]], Value("", "")):  # "to Kim by the gate"
+            rest = (filler for filler in wish.fillers if filler is not goal)
+            wish = replace(wish, fillers=(*rest, replace(parts[0], role="R"), parts[1]))
         for about in _STANDING.get(wish.frame, "") if "GO" in self.skills else "":
             one, roles = wish.one(about), self.lexicon.frames[wish.frame].roles
             role = next((role for role in ("SL" if about == "T" else "L") if role in roles), "")
             parts = self._standing(one, role) if one is not None and role and not wish.has(role) else ()
+            if parts and wish.frame == "LOOK" and parts[1].words[0] not in WITHIN:
+                parts = ()
             wish = (
                 replace(wish, fillers=(*(f for f in wish.fillers if f is not one), *parts)) if parts else wish
             )
@@ -102,18 +138,23 @@ class Builder(Doing):
     def _standing(self, named: Filler, role: str) -> tuple[Filler, ...]:
         """Who or what is named, and the place that is told with it; nothing if none is."""
         words, small = named.words, self.lexicon.classes["prepositions"] - {"of"}
-        at = next((at for at in range(named.head + 1, len(words)) if words[at] in small), 0)
-        if not at or link(words, named.head, self.situation.objects, self.lexicon).things:
+        leads = [at for at in range(named.head + 1, len(words)) if words[at] in small]
+        if not leads or link(words, named.head, self.situation.objects, self.lexicon).things:
+            return ()
+        at = next((at for at in leads if self._is_where(words[at:])), 0)
+        if not at:
             return ()
         where = head_of(words[at:], self.lexicon)
-        found = link(words[at:], where, self.situation.objects, self.lexicon)
-        if found.kind != "one" and not self.inside(words[at:]):
-            return ()
         middle, text = named.start + at, " ".join(named.text.split()[:at])
         return (
             replace(named, end=middle, words=words[:at], said=text),
             Filler(role, middle, named.end, where, words[at:], named.share),
         )
+
+    def _is_where(self, words: tuple[str, ...]) -> bool:
+        """Whether words name one place of the map, or a room."""
+        found = link(words, head_of(words, self.lexicon), self.situation.objects, self.lexicon)
+        return found.kind == "one" or self.inside(words) is not None
 
     def _logic(self, wish: Wish) -> Ask | None:
         """What of its logic no plan takes."""
@@ -292,12 +333,21 @@ class Builder(Doing):
         for role in "GH":
             if wish.frame == "FACE" and role in values:
                 values["T"] = values.pop(role)
+        meant = self.as_meant(wish, values)
+        if isinstance(meant, Ask):
+            return meant
+        searched = self.searched(*meant)
+        made = self._by_action(*meant)
+        return made if isinstance(made, Ask) else [*searched, *made]
+
+    def _by_action(self, wish: Wish, values: dict[str, Value]) -> list[Deed] | Ask:
+        """By the action that is made for it, or by several."""
         skill = self.skills.get(wish.frame)
         if skill is not None and "T" in values and self.lexicon.frames[wish.frame].roles.get("T") == "thing":
             skill = skill.fitting(self.is_person(wish.all("T"), values["T"]))
-        other = _HANDLED.get(wish.frame) if "TAKE" in self.skills else None
+        other = _BY_HAND.get(wish.frame) if "TAKE" in self.skills else None
         if (
-            wish.frame in (*_HANDLED, "BRING")
+            wish.frame in (*HANDLED, "BRING")
             and "T" in values
             and (which := self._not_held(wish, values)) is not None
         ):
@@ -347,6 +397,9 @@ class Builder(Doing):
             return followed(wish, values, self)
         if wish.frame == "GO" and "N" in values and "G" in values:
             return Ask(f"Shall I go to {values['G'].said}, or only {values['N'].said} in that direction?")
+        things = values["T"].things if "T" in values else ()
+        if wish.frame == "BRING" and things and all(map(self._is_place, things)):
+            return Ask(f"I cannot bring {values['T'].said}. What shall I do there?")
         if wish.frame == "BRING" and not {"R", "G"} & set(values) and wish.verb.split()[0] not in _TO_ME:
             return Ask("Where shall I bring it?")
         return None
@@ -428,7 +481,7 @@ class Builder(Doing):
 
 _STANDING = {
     "BRING": "TR", "TAKE": "T", "GIVE": "TR", "FIND": "T", "FOLLOW": "T", "PHOTO": "T", "GUIDE": "T",
-    "SAY": "R", "PUT": "T",
+    "SAY": "R", "PUT": "T", "ANSWER": "R", "COUNT": "T", "LOOK": "T",
 }  # fmt: skip
 """Who or what may stand somewhere that is said with the name."""
 _CLAUSE = frozenset(
@@ -447,5 +500,5 @@ _ONCE = frozenset({"SAY", "ASK", "WAIT", "TURN", "MOVE", "CONNECT", "DISC", "MIX
 
 _WAYS = {"FIND": Builder.look_for, "TAKE": Builder.take, "BRING": Builder.bring, "GIVE": Builder.bring}
 """How frames are done without an action of their own."""
-_HANDLED = {"TAKE": Builder.take, "GIVE": Builder.bring, "PUT": Builder.bring}
+_BY_HAND = {"TAKE": Builder.take, "GIVE": Builder.bring, "PUT": Builder.bring}
 """How they are done with one, where the robot has hands."""

@@ -13,7 +13,7 @@ from parley.language.builtin.lexicon import stem
 from parley.language.builtin.skills import Skill
 from parley.language.builtin.ways import typed
 from parley.language.builtin.wishes import Wish
-from parley.umrf.kinds import words_of_name
+from parley.umrf.kinds import parameters_of, words_of_name
 
 __all__ = ["Doing", "slot_of"]
 
@@ -30,6 +30,8 @@ class Doing(Handling):
         gloss = self.lexicon.frames[wish.frame].gloss
         for role, value in values.items():
             slot = slot_of(skill, role, values)
+            if slot is not None and role == "T" and "L" in values and self._takes_place(skill, slot, value):
+                slot = None  # "how many boxes are on the shelf": the shelf is what is counted through
             if slot is not None and slot not in arguments:
                 given = typed(value, skill.action, slot)
                 if given is None:
@@ -47,20 +49,26 @@ class Doing(Handling):
             return way
         if wish.frame in ("TAKE", "FIND") and "T" in values:
             self.held += [values["T"].argument] if wish.frame == "TAKE" else []
+            self.in_hand = values["T"] if wish.frame == "TAKE" else self.in_hand
             self.sought = (self.at, values["T"].argument)
         deed = Deed(wish.frame, skill, arguments, said)
         if "looks" in skill.action.effects or wish.frame in ("LOOK", "FIND"):
             self.last_check = deed
         return [*before, *way, deed]
 
+    @staticmethod
+    def _takes_place(skill: Skill, slot: str, value: Value) -> bool:
+        """Whether an input takes a place, and a value is none."""
+        return parameters_of(skill.action)[slot].kind == "place" and not (value.things or value.place)
+
     def _to_people(self, wish: Wish, values: dict[str, Value]) -> list[Deed]:
         """The way to whom something is done with, if it was told where they are."""
-        who = "R" if wish.frame in ("SAY", "GIVE") else "T"
+        who = "R" if wish.frame in ("SAY", "GIVE", "ANSWER") else "T"
         person = values.get(who)
         if wish.frame not in _TO_PEOPLE or person is None or "GO" not in self.skills:
             return []
-        if "L" in values:
-            way = self.nearing(values["L"])
+        if (where := values.get("L") or (values.get("S") if wish.frame == "FOLLOW" else None)) is not None:
+            way = self.nearing(where)
         else:
             now = person.place is not None and person.place.memory not in self.situation.memory
             told = person.place is not None if wish.frame == "SAY" else wish.frame == "GIVE"
@@ -70,7 +78,7 @@ class Doing(Handling):
     def _without_slot(self, wish: Wish, role: str, value: Value, skill: Skill) -> list[Deed] | Ask:
         """What comes of a role that no input of an action takes: a way, or nothing at all."""
         meant = role == "T" and self._is_meant_anyway(wish, skill)
-        if meant or (wish.frame == "SAY" and role == "R" and self.at):
+        if meant or (wish.frame in ("SAY", "ANSWER") and role == "R" and self.at):
             return []
         there = role in "SL" or wish.frame in ("CHARGE", "PUT")
         way = self.nearing(value) if there and "GO" in self.skills else None
@@ -120,7 +128,7 @@ def slot_of(skill: Skill, role: str, values: dict[str, Value]) -> str | None:
 _ALIKE = {"G": "RL", "R": "G", "K": "T", "T": "KX", "S": "G", "L": "S", "H": "T"}
 """Which other role's parameter takes what a role holds, if it is free."""
 _ABOUT_HERE = frozenset({"you", "here", "there", "i"})
-_TO_PEOPLE = frozenset({"SAY", "GIVE", "FOLLOW", "GUIDE"})
+_TO_PEOPLE = frozenset({"SAY", "GIVE", "FOLLOW", "GUIDE", "ANSWER"})
 """What is done with somebody: where they are."""
 _ON_THE_SPOT = frozenset({"LOOK", "PHOTO", "TAKE", "PUT", "FIND"})
 """What is done where the thing is: an action of which only the name is known may not drive there itself."""

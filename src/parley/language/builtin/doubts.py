@@ -40,7 +40,11 @@ def doubt(
         return Ask(
             f"I do not understand “{' '.join(reading.left_over)}” in this. Can you say it in other words?"
         )
-    if reading.acts & ({"alarm", "question", "control"} | (set() if idle else {"edit"})):
+    told = orders and all(
+        wish.frame in ("LOOK", "COUNT") and wish.has("TK") for wish in orders
+    )  # what is seen
+    unclear = {"alarm", "control"} | (set() if told else {"question"}) | (set() if idle else {"edit"})
+    if reading.acts & unclear:
         return Ask("I am not sure what you want me to do. Can you say one thing at a time?")
     if reading.unsteady:
         what = " ".join(dict.fromkeys(" ".join(reading.unsteady).split()))

@@ -26,7 +26,7 @@ from parley.language.lexicon import load_data
 from parley.umrf.kinds import is_word_for
 from parley.world.object_map import MapObject
 
-__all__ = ["Grounder", "Value", "is_somebody"]
+__all__ = ["WITHIN", "Grounder", "Value", "is_somebody"]
 
 _MOVABLE = frozenset(
     {"TAKE", "BRING", "GIVE", "PUT", "FIND", "COUNT", "POUR", "CUT", "MIX", "COOK", "DO", "MAKE"}
@@ -80,6 +80,8 @@ class Grounder:
     """What is not certain, and the words that were not understood: the deeds are only offered then."""
     mentioned: list[MapObject] = field(default_factory=list)
     """Things that were named so far, whatever is done with them."""
+    tells: bool = False
+    """Whether the message tells facts, too: they may say where things are."""
     behind: Wish | None = None
     """What is wanted next in the same breath."""
     refused: list[tuple[str, str]] = field(default_factory=list)
@@ -110,7 +112,8 @@ class Grounder:
         known = (
             thing is not None and link(thing.words, thing.head, self.situation.objects, self.lexicon).things
         )
-        return self._thing("" if known else wish.frame, filler, mention, placed=wish.has("SL"))
+        placed = wish.has("SL") if wish.frame != "LOOK" else any(f.words[0] in WITHIN for f in wish.all("L"))
+        return self._thing("" if known else wish.frame, filler, mention, placed=placed)
 
     def _person(self, filler: Filler, mention: Mention) -> Value | Ask:
         if mention.kind == "pronoun":
@@ -159,11 +162,14 @@ class Grounder:
             called = as_said(place.thing, place.memory.data)
             return Value(called, with_article(called), (), place)
         looked_for = frame in ("FIND", "COUNT", "DO", "MAKE") or rest or not objects or placed
+        searched = {"FIND", frame} <= {*self.skills} and not self.tells  # who does not know where may search
+        looked_for = looked_for or searched
         looked_for = looked_for or (frame in self.skills and self.skills[frame].is_by_hand)
         movable = frame in _MOVABLE and filler.role == "T" and looked_for
         movable = movable and not {*filler.words[1:]} & lexicon.classes["me"]
-        if movable or frame in ("PHOTO", "BELOC"):
-            return Value(mention.text, with_article(mention.text))
+        if movable or frame in ("PHOTO", "BELOC") or (frame == "LOOK" and placed):
+            called = as_said(mention.text, filler.text)
+            return Value(called, with_article(called))
         return self._unknown(
             as_said(mention.text, filler.text), frame, sought=frame in _MOVABLE and filler.role == "T"
         )
@@ -314,12 +320,22 @@ class Grounder:
 
     def is_person(self, fillers: Sequence[Filler], value: Value) -> bool:
         """Whether somebody is meant: by a name, by what the map says, or by a word for people."""
+        if (
+            value is self.last_person
+            and fillers
+            and {*fillers[0].words} <= self.lexicon.classes["persons"] | _SEVERAL
+        ):
+            return True
         if value.things or not fillers:
             return bool(value.things) and all(one.class_name == "person" for one in value.things)
         name, _ = noun_phrase(fillers[0].words, fillers[0].head, self.lexicon)
         said = fillers[0].text.split()
         named = any(word[:1].isupper() and word.lower() in name for word in said)
-        return named or bool(name and is_somebody(name[-1])) or value.argument == "operator"
+        first = next(
+            (word for word in fillers[0].words if word not in self.lexicon.classes["determiners"]), ""
+        )
+        people = (name and is_somebody(name[-1])) or is_somebody(first)  # "someone raising a hand"
+        return named or bool(people) or value.argument == "operator"
 
     def is_placed(self, filler: Filler) -> bool:
         """Whether a role tells one thing from others by where it is."""
@@ -445,6 +461,8 @@ def _at_point(filler: Filler) -> Value | None:
     return Value(text, f"the {text}", point=point)
 
 
+WITHIN = frozenset({"in", "on", "inside", "within", "at"})
+"""Where something is; "by" and "between" tell which one it is."""
 _BESIDE = frozenset({"next", "near", "beside", "by", "behind", "opposite", "close"})
 _SHOWN = 3
 """So many things are named to whoever asked for one that nobody knows."""

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from parley.language.builtin.decision import Ask, Deed
 from parley.language.builtin.fillers import Filler
 from parley.language.builtin.grounding import Value, is_somebody
 from parley.language.builtin.skills import Skill
 from parley.language.builtin.ways import Ways
+from parley.language.builtin.wishes import Wish
 
-__all__ = ["Handling"]
+__all__ = ["HANDLED", "Handling"]
+
+HANDLED = ("TAKE", "GIVE", "PUT")
+"""What is done with a thing by hand, where the robot has one."""
 
 
 @dataclass(slots=True)
@@ -20,8 +24,47 @@ class Handling(Ways):
 
     held: list[str] = field(default_factory=list)
     """What the robot has taken in this message."""
+    in_hand: Value | None = None
+    """What of that it took last."""
     sought: tuple[str, str] = ("", "")
     """Where and what was looked for last."""
+
+    def as_meant(self, wish: Wish, values: dict[str, Value]) -> tuple[Wish, dict[str, Value]] | Ask:
+        """A wish with the frame that what it is about asks for: people are led, and not carried."""
+        who, said = values.get("T"), wish.one("T")
+        if wish.frame != "BRING" or who is None or said is None:
+            return wish, values
+        if "BRING" in self.skills and self._is_handed_on(values):
+            return replace(wish, frame="TAKE"), {r: value for r, value in values.items() if r in "TSL"}
+        if "G" not in values or "GUIDE" not in self.skills:
+            return wish, values
+        known = who is self.last_person or {*said.words} <= self.lexicon.classes["persons"]
+        if known or is_somebody(said.words[said.head]):
+            return replace(wish, frame="GUIDE"), {r: value for r, value in values.items() if r in "TGS"}
+        if who.things or not self.is_person([said], who):
+            return wish, values
+        return Ask(f"Is {who.said} somebody I shall lead there, or a thing I shall carry?")
+
+    def _is_handed_on(self, values: Mapping[str, Value]) -> bool:
+        """Whether what is fetched is wanted elsewhere: "fetch the box and put it on the desk"."""
+        to, behind = values.get("R") or values.get("G"), self.behind
+        thing = behind.one("T") if behind is not None else None
+        if behind is None or thing is None or "TAKE" not in self.skills or "G" in values:
+            return False
+        on = behind.frame in ("BRING", "GIVE", "PUT") and {*thing.words} <= self.lexicon.classes["pronouns"]
+        return on and (to is None or to.argument == "operator")
+
+    def searched(self, wish: Wish, values: Mapping[str, Value]) -> list[Deed]:
+        """A look for what is to be handled where nobody knows where it is and an action searches."""
+        thing, find = values.get("T"), self.skills.get("FIND")
+        find = find.fitting(person=False) if find is not None else None
+        if thing is None or wish.frame not in (*HANDLED, "BRING") or find is None or "T" not in find.roles:
+            return []
+        known = thing.things or thing.place or thing.each or {*"SL"} & {*values} or self.at
+        if known or thing.argument in self.held or self.sought[1] == thing.argument:
+            return []
+        self.sought = (self.at, thing.argument)
+        return [Deed("FIND", find, {find.roles["T"]: thing.argument}, {"T": thing.said})]
 
     def look_for(self, values: Mapping[str, Value]) -> list[Deed] | Ask:
         """The way to something, and a look for it."""
@@ -57,6 +100,7 @@ class Handling(Ways):
         if isinstance(found, Ask):
             return found
         self.held.append(thing.argument)
+        self.in_hand = thing
         if skill is not None and skill.is_by_hand:
             found = [deed for deed in found if deed.frame == "GO"]  # it sees for itself
         if skill is not None and slot:
@@ -75,7 +119,7 @@ class Handling(Ways):
         goal, thing = values.get("R") or values.get("G"), values.get("T")
         if goal is None or thing is None:
             return Ask("Where shall I bring it?" if thing is not None else "What shall I bring?")
-        if thing.things and thing.things == goal.things:
+        if (thing.things and thing.things == goal.things) or thing.argument == goal.argument:
             return Ask(f"What shall I bring to {goal.said}?")
         taken: list[Deed] | Ask = []
         if thing.argument not in self.held:

@@ -48,11 +48,12 @@ def read(parse: Parse, lexicon: Lexicon) -> Reading:
         "H",
         "N",
     } and not parse.verbs  # "to the left thirty degrees"
-    implied = [_implied(parse, filler, lexicon, steered) for filler in loose]
+    implied = [_implied(parse, filler, lexicon, steered) or _asked_for(parse, filler) for filler in loose]
     implied_wishes = _joined([wish for wish in implied if wish is not None])
     rest = tuple(filler for filler, wish in zip(loose, implied, strict=True) if wish is None)
     ordered = sorted([*wishes, *implied_wishes], key=lambda wish: wish.start)
-    wanted = _without_openers([retyped(wish, lexicon) for wish in ordered], parse)
+    wanted = _without_openers(_once([retyped(wish, lexicon) for wish in ordered]), parse)
+    wanted = _led(_shared(wanted))
     spread = [part for wish in wanted for part in _spread(wish)]
     idle = _left_over(parse, lexicon)
     manner = tuple(word for word in idle if word.lower() in lexicon.classes["manner"])
@@ -83,14 +84,16 @@ def _merged(parse: Parse) -> list[Span]:
     """Spans of one role that touch each other are one; a role behind a later verb belongs to that one."""
     found: list[Span] = []
     for span in parse.spans:
-        if span.end - span.start == 1 and parse.tokens[span.start].low in _BARE:
-            continue
+        if span.end - span.start == 1 and parse.tokens[span.start].low in _BARE | _OVER:
+            led = any(span.end == other.start and other.role in "GR" for other in parse.spans)
+            if led or parse.tokens[span.start].low in _BARE:
+                continue
         last = found[-1] if found else None
         letter = span.end - span.start == 1 and len(parse.tokens[span.start].low) == 1
         if last is not None and last.role == "E" and letter and last.end == span.start:
             found[-1] = replace(last, end=span.end)  # "but not lift A"
             continue
-        if last is not None and last.role == span.role and last.end == span.start and span.role in "NGTSLHX":
+        if last is not None and last.role == span.role and last.end == span.start and span.role in "NGTSLHXK":
             head = span.head if span.role in "NH" else last.head
             found[-1] = replace(last, end=span.end, head=head, share=min(last.share, span.share))
             continue
@@ -137,6 +140,8 @@ def _apart(parse: Parse, span: Span, nearest: int) -> bool:
 
 _BARE = frozenset({"to", "for", "at", "of", "by", "from", "with"})
 """What fills no role alone."""
+_OVER = frozenset({"over", "back", "across"})
+"""What fills none before a goal: "bring it over to the desk"."""
 
 
 def _without_openers(wishes: list[Wish], parse: Parse) -> list[Wish]:
@@ -155,8 +160,53 @@ def _without_openers(wishes: list[Wish], parse: Parse) -> list[Wish]:
     return kept
 
 
+def _once(wishes: list[Wish]) -> list[Wish]:
+    """With one wish for a verb that was found twice: "go find" and the "find" in it."""
+    found: list[Wish] = []
+    for wish in wishes:
+        last = found[-1] if found else None
+        within = last is not None and wish.start < last.start + len(last.verb.split())
+        if last is not None and within and last.frame == wish.frame:
+            more = tuple(filler for filler in last.fillers if not wish.has(filler.role))
+            found[-1] = replace(wish, fillers=(*wish.fillers, *more))
+            continue
+        found.append(wish)
+    return found
+
+
+def _shared(wishes: list[Wish]) -> list[Wish]:
+    """With the thing of the next wish where a verb has none: "find and bring the box"."""
+    found = list(wishes)
+    for at in range(len(found) - 2, -1, -1):
+        wish, behind = found[at], found[at + 1]
+        near = behind.start - wish.start <= len(wish.verb.split()) + 1
+        thing = behind.one("T")
+        if near and not wish.fillers and thing is not None and wish.frame in _SHARING and not wish.negated:
+            found[at] = replace(wish, fillers=(thing,))
+    return found
+
+
+_SHARING = frozenset({"FIND", "TAKE", "LOOK", "FOLLOW"})
+
+
+def _led(wishes: list[Wish]) -> list[Wish]:
+    """Whom is shown how to get somewhere is led there."""
+    found: list[Wish] = []
+    for wish in wishes:
+        last = found[-1] if found else None
+        how = last is not None and any({*f.words} <= _HOW for f in last.all("X") + last.all("K"))
+        if last is not None and how and last.frame == "GUIDE" and wish.frame == "GO" and wish.has("G"):
+            kept = (f for f in last.fillers if f.role not in "XK")
+            found[-1] = replace(last, fillers=(*kept, *wish.all("G")))
+            continue
+        found.append(wish)
+    return found
+
+
+_HOW = frozenset({"how", "the", "way"})
 _NAMED = frozenset("TGSLR")
 """Roles that name a thing, a place or a person."""
+_ALONG = frozenset({"down", "up", "round", "over"})
 _FOCUS = frozenset({"only", "just", "merely", "solely"})
 
 
@@ -169,6 +219,11 @@ def _filler(parse: Parse, span: Span, lexicon: Lexicon) -> Filler:
             start += 1
         while end - 1 > start and parse.tokens[end - 1].low in _FOCUS:
             end -= 1
+    along = (
+        span.role in "GLP" and end - start > 2 and parse.tokens[start].low in ("down", "up", "round", "over")
+    )
+    if along and parse.tokens[start + 1].low in lexicon.classes["determiners"]:
+        start += 1  # "down the corridor"
     words = tuple(token.low for token in parse.tokens[start:end])
     head = min(max(span.head, start), end - 1) - start
     small = lexicon.classes["prepositions"] | lexicon.classes["determiners"]
@@ -190,6 +245,8 @@ def _wish(parse: Parse, verb: Verb, mine: list[Filler], lexicon: Lexicon) -> Wis
     while words and (words[0] in ("don't", "dont", "not", "never", "do") and len(words) > 1):
         words = words[1:]
     end, longer = _reach(parse, verb, lexicon)
+    inside = [f for f in mine if verb.end <= f.start < f.end <= end and f.role in "TXR"]
+    mine = [filler for filler in mine if filler not in inside]  # "a question" belongs to "answer"
     behind = tuple(token.low for token in parse.tokens[end : end + 2])
     if verb.frame == "GO" and behind in _TO_US and not any(filler.role == "G" for filler in mine):
         mine = [*(f for f in mine if f.start != end), Filler("G", end, end + 2, 1, behind, 1.0, "to me")]
@@ -255,6 +312,16 @@ def _implied(parse: Parse, filler: Filler, lexicon: Lexicon, steered: bool) -> W
     return Wish(
         frame, filler.start, "", (filler,), filler.share, "unknown" if filler.role == "G" else "agrees"
     )
+
+
+def _asked_for(parse: Parse, filler: Filler) -> Wish | None:
+    """The frame of a thing that somebody wants, without a word for what is done: "I'd like the box"."""
+    low = [token.low for token in parse.tokens[: filler.start]]
+    wants = {"i", "we"} & {*low} and {"like", "want", "have", "get"} & {*low[-2:]}
+    if parse.verbs or filler.role != "T" or parse.acts[filler.start] != "order" or not wants:
+        return None
+    me = Filler("R", filler.end, filler.end, 0, ("me",), 1.0, "me")
+    return Wish("BRING", filler.start, "bring", (filler, me), filler.share, "agrees")
 
 
 def _joined(wishes: list[Wish]) -> list[Wish]:
@@ -350,6 +417,14 @@ def _leading(parse: Parse, verb: Verb, lexicon: Lexicon) -> set[int]:
     return found
 
 
+def _opened(parse: Parse, verb: Verb) -> set[int]:
+    """A bare "go" or "come" before a verb, that the tagger gave no frame: "go and tell him"."""
+    at = verb.start - 1
+    at -= at > 0 and parse.tokens[at].low == "and"
+    opens = at >= 0 and parse.tokens[at].low in ("go", "come") and parse.acts[at] == "order"
+    return {at} if opens else set()
+
+
 _STATES_OF_ONES_OWN = 3
 """So many words at most say how the speaker is."""
 
@@ -376,6 +451,7 @@ def _left_over(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
     for span in parse.spans:
         taken |= set(range(span.start, span.end))
     taken |= _own_state(parse, lexicon)
+    taken |= {at for verb in parse.verbs for at in _opened(parse, verb)}
     low = [token.low for token in parse.tokens]
     starts = {span.start for span in parse.spans}
     small = lexicon.classes["small"]

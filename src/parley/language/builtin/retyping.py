@@ -18,6 +18,8 @@ _AT = frozenset(
     {"on", "in", "at", "near", "by", "under", "beside", "next", "behind", "inside", "from", "off"}
 )
 """Prepositions that say where something is, and not where to."""
+_TOLD_OF = frozenset({"what", "which", "who", "how", "where", "if", "whether"})
+_BEING = frozenset({"is", "are", "there", "'s", "do", "does", "you", "see"})
 _JOINED = 2
 """So many marks and words at most stand between what is listed: ", and"."""
 _FROM_THERE = frozenset({"from", "there", "here", "on"})
@@ -28,6 +30,10 @@ def retyped(wish: Wish, lexicon: Lexicon) -> Wish:
     """With the frame that its roles ask for."""
     if wish.frame in ("GO", "TURN"):
         wish = _renamed(wish, "G", "H", [f for f in wish.all("G") if _is_direction(f, lexicon)])
+    if wish.frame in ("SAY", "LOOK", "COUNT"):
+        return _seen(wish) if wish.has("K") else _looked_at(wish)
+    if wish.frame in ("FIND", "GIVE", "BRING"):
+        wish = _met(wish, lexicon)
     if wish.frame == "WAIT" and wish.has("L") and not wish.has("DU"):
         return replace(_renamed(wish, "L", "G", list(wish.all("L"))), frame="GO")  # "stop at the gate"
     if wish.frame == "GUIDE" and not wish.has("T"):
@@ -46,6 +52,57 @@ def retyped(wish: Wish, lexicon: Lexicon) -> Wish:
     if wish.frame == "BRING" and not wish.has("RG") and wish.verb.split(" ")[0] in _TAKING:
         return replace(wish, frame="TAKE")
     return wish
+
+
+def _looked_at(wish: Wish) -> Wish:
+    """Looking on a thing is looking at it: "look on the desk"; telling me something is saying it."""
+    if wish.frame != "LOOK" or wish.has("TK"):
+        return wish
+    on = [f for f in wish.all("L") if f.words[0] in ("on", "in", "inside", "at") and len(f.words) > 1]
+    return replace(wish, frame="SAY") if wish.has("X") else _renamed(wish, "L", "T", on)
+
+
+def _met(wish: Wish, lexicon: Lexicon) -> Wish:
+    """Where somebody or something is, as its place: "to Kim by the gate", "meet Kim at the gate"."""
+    mine = [f for f in wish.all("T") if {*f.words} <= lexicon.classes["me"]]
+    if wish.frame == "FIND" and mine and wish.has("L"):  # "meet me at the desk"
+        met = replace(wish, frame="GO", fillers=tuple(f for f in wish.fillers if f not in mine))
+        return _renamed(met, "L", "G", [*met.all("L")])
+    if wish.frame == "FIND" or wish.has("R"):
+        wish = _renamed(wish, "G", "L", [f for f in wish.all("G") if f.words[0] in _AT])
+    if wish.frame != "FIND" and not wish.has("T") and len(wish.all("R")) == 2:
+        wish = _renamed(wish, "R", "T", [*wish.all("R")[:1]])  # "give them to me"
+    return wish
+
+
+def _seen(wish: Wish) -> Wish:
+    """Telling what is seen is looking, and counting where it is how many."""
+    said = wish.all("K")[0]
+    if wish.frame == "SAY" and (wish.has("XT") or said.words[0] not in _TOLD_OF):
+        return wish
+    wish = replace(wish, frame="LOOK" if wish.frame == "SAY" else wish.frame)
+    behind = [f for f in wish.fillers if f.start >= said.end and f.role in "TL"]
+    if (
+        len(said.words) == 1 and behind and behind[0].start - said.end <= 1
+    ):  # "what | the box on the desk | is"
+        said = _run(said, behind)
+        wish = replace(wish, fillers=(*(f for f in wish.fillers if f.role != "K" and f not in behind), said))
+    if said.words[:2] != ("how", "many"):
+        return wish
+    counted = tuple(word for word in said.words[2:] if word not in _BEING)
+    head = next((at for at, word in enumerate(counted) if word in _AT or word.endswith("ing")), len(counted))
+    if not counted or not head:
+        return wish
+    of = Filler("T", said.start, said.end, head - 1, counted, said.share, " ".join(counted))
+    return replace(wish, frame="COUNT", fillers=(of, *(f for f in wish.fillers if f.role in "TLG")))
+
+
+def _run(first: Filler, others: list[Filler]) -> Filler:
+    """Several roles side by side as one."""
+    words = (*first.words, *(word for one in others for word in one.words))
+    text = " ".join([first.text, *(one.text for one in others)])
+    share = min(one.share for one in (first, *others))
+    return Filler(first.role, first.start, others[-1].end, len(words) - 1, words, share, text)
 
 
 def _gone(wish: Wish) -> Wish:

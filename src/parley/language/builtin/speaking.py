@@ -10,8 +10,10 @@ from typing import Final
 from parley.language.builtin.decision import Ask
 from parley.language.builtin.grounding import Grounder, Value, is_somebody
 from parley.language.builtin.lexicon import stem
+from parley.language.builtin.skills import Skill
 from parley.language.builtin.wishes import Wish
 from parley.language.stop_words import has_stop_word
+from parley.umrf.kinds import words_of_name
 
 __all__ = ["followed", "spoken"]
 
@@ -65,10 +67,21 @@ def spoken(wish: Wish, values: MutableMapping[str, Value], grounder: Grounder) -
     elif quoted is None:
         told_of = _is_reported(text, grounder) or _SPEAKER.search(text) is not None
         text = "" if told_of else re.sub(r"^(?:that|to)\s+", "", text, flags=re.IGNORECASE)
+    if not text and _informs(grounder.skills.get("SAY")) and not _SPEAKER.search(told.argument):
+        values["X"] = replace(told, argument=told.said, said=told.said)
+        return None
     if not text:
         return Ask(f"What exactly shall I say{whom}? Please tell me word for word: say “…”.")
     values["X"] = replace(told, argument=text, said=text)
     return None
+
+
+_INFORMING: Final = frozenset({"information", "news", "tell", "tells", "inform", "informs"})
+
+
+def _informs(skill: Skill | None) -> bool:
+    """Whether an action tells of what it is given, by its maker's words, and does not only read it out."""
+    return skill is not None and bool(_INFORMING & {*words_of_name(skill.action.description)})
 
 
 def _is_reported(text: str, grounder: Grounder) -> bool:
@@ -100,4 +113,9 @@ def _is_somebody(wish: Wish, role: str, value: Value, grounder: Grounder) -> boo
     if value.things:
         return all(thing.description[:1].isupper() for thing in value.things)
     words = fillers[0].words if fillers else ()
+    if (
+        value is grounder.last_person
+        and {*words} <= grounder.lexicon.classes["pronouns"] | grounder.lexicon.classes["persons"]
+    ):
+        return True  # who was spoken of
     return len(words) == 1 and head not in grounder.lexicon.classes["pronouns"]

@@ -123,7 +123,7 @@ def _called(words: Sequence[str], objects: Sequence[MapObject], lexicon: Lexicon
     leads = lexicon.classes["prepositions"] | lexicon.classes["determiners"]
     while start < len(words) - 1 and words[start] in leads:
         start += 1
-    said = stems(words[start:])
+    said = stems([word for word in words[start:] if word not in ("'s", "’s")])  # "the baby's chair"
     return [
         item
         for item in objects
