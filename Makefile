@@ -38,7 +38,7 @@ types: $(VENV)/.runtime frontend/node_modules/.installed ## Renew the page's typ
 # Half as many again as there are cores: tests wait for processes and sockets a good part of their time.
 WORKERS = $(shell echo $$((($$(getconf _NPROCESSORS_ONLN) * 3 + 1) / 2)))
 test: $(VENV)/.dev $(PAGE) ## All tests that take seconds
-	@$(BIN)/python -m pytest -q -n $(WORKERS) --dist loadfile -m "not soak and not ros"
+	@$(BIN)/python -m pytest -q -n $(WORKERS) --dist loadfile --no-loadscope-reorder -m "not soak and not ros"
 	@$(MAKE) --no-print-directory test-page
 
 test-page: $(VENV)/.runtime $(PAGE) ## Those of the page: lint, types, units, and stories in a real browser

@@ -32,6 +32,22 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
 
 
+_LONG = (
+    "test_parts",
+    "test_harmless",
+    "test_stop_under_faults",
+    "test_passages",
+    "test_kills",
+    "test_hostile",
+)
+"""Files of which one takes more than half a minute: begun first, so that nobody waits for them at the end."""
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    items.sort(key=lambda item: not item.path.stem.startswith(_LONG))
+
+
 def holders() -> dict[str, list[str]]:
     """Statement -> the tests marked with it, in all test files, whatever part of them is run now."""
     found: dict[str, list[str]] = {}

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, Literal
+from zlib import crc32
 
 from parley.config import ApprovalPolicy
 from tests.attacks.effects import Effect
@@ -190,9 +191,14 @@ def _goes_on_anyway(case: Case, effect: Effect) -> bool:
 
 
 def in_the_gate(case: Case, policy: ApprovalPolicy) -> bool:
-    """Whether a case is played each time: what is risky is told from what is not by the dangerous steps."""
+    """Whether a case is played each time: what is risky is told from what is not by the dangerous steps.
+
+    The others are played under one of the two policies that ask about all or about nothing.
+    """
     answers = [case.answer, case.resolves, *(then.answer for then in case.then)]
     steps = [
         step for answer in answers if answer for step in (*answer.get("queue", ()), answer.get("afterwards"))
     ]
-    return policy != "ask_when_risky" or any(DANGEROUS in step for step in steps if isinstance(step, dict))
+    if any(DANGEROUS in step for step in steps if isinstance(step, dict)):
+        return True
+    return policy == ("ask_first", "run_at_once")[crc32(case.name.encode()) % 2]

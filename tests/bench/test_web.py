@@ -43,6 +43,7 @@ async def test_without_a_browser_its_figures_are_null_and_say_why(
     assert found["page_files"]["gzip_kb"] is None
 
 
+@pytest.mark.soak
 async def test_a_real_browser_paints_the_pictures_later_than_they_come() -> None:
     try:
         find_browser()

@@ -39,16 +39,14 @@ async def still_works(home: House) -> None:
 
 
 @pytest.mark.parametrize("topic", JSON_TOPICS, ids=lambda topic: topic.name)
-@pytest.mark.parametrize(
-    "text", ["{not json", "[]", '{"a": NaN}', "[" * 100_000], ids=["text", "list", "nan", "deep"]
-)
-async def test_malformed_json_is_refused_and_everything_goes_on(home: House, topic: Any, text: str) -> None:
-    home.observer.send(topic, String(text))
-    await home.observer.until(
-        lambda: any(refusal.what == topic.name for refusal in home.observer.refusals), timeout_s=10
-    )
-    refusal = next(refusal for refusal in home.observer.refusals if refusal.what == topic.name)
-    assert refusal.problems[0].message
+async def test_malformed_json_is_refused_and_everything_goes_on(home: House, topic: Any) -> None:
+    for text in ("{not json", "[]", '{"a": NaN}', "[" * 100_000):
+        before = len(home.observer.refusals)
+        home.observer.send(topic, String(text))
+        await home.observer.until(lambda: len(home.observer.refusals) > before, timeout_s=10)  # noqa: B023
+        refusal = home.observer.refusals[before]
+        assert refusal.what == topic.name
+        assert refusal.problems[0].message
     reply = await home.say("what can you do?")
     assert reply.type == "response"
 

@@ -7,6 +7,8 @@ import contextlib
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
+import pytest
+
 from parley.config import SystemConfig
 from parley.messages import topics
 from parley.messages.passages import PassageList
@@ -86,6 +88,7 @@ async def test_robots_go_through_a_narrow_doorway_one_after_the_other() -> None:
         assert len(told) <= 6  # said once for each that goes first
 
 
+@pytest.mark.soak
 async def test_who_is_stopped_in_the_doorway_is_waited_for_and_who_waits_can_be_stopped() -> None:
     async with halls(speed=4) as (home, _):  # a moment in the doorway is to be seen
         await home.say("go to the lamp", "Ada")
