@@ -15,9 +15,9 @@ from parley.cli.choosing import KeyFileOption, LanguageOption, language_settings
 from parley.cli.on_loop import on_loop
 from parley.cli.output import emit_json, fail, quiet_logs
 from parley.config import ModelSettings
+from parley.evaluation.say_tests import SayResult, run_say_tests
 from parley.language.base import Language
 from parley.language.llm import build_language
-from parley.language.say_tests import SayResult, run_say_tests
 from parley.umrf.action import ActionSpec
 from parley.umrf.catalogue import Catalogue, fully_described
 from parley.umrf.discovery import ActionFolder, export_descriptors, installed_actions

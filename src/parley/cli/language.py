@@ -22,7 +22,7 @@ from parley.demos.catalogue import DEMOS, demo_folder
 from parley.errors import ConfigError, FileFormatError
 from parley.files import read_text, validated_yaml
 from parley.language.base import Language, Situation
-from parley.language.builtin.markup import read_text as read_sentences
+from parley.language.builtin.training.markup import read_text as read_sentences
 from parley.language.dialogue.taught import Taught, entry_of, key, taught_in
 from parley.language.dialogue.teaching import Learned, weighed
 from parley.language.llm import build_language

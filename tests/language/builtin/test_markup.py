@@ -10,8 +10,8 @@ import pytest
 import yaml
 
 from parley.errors import FileFormatError
-from parley.language.builtin.markup import read_line, read_text
 from parley.language.builtin.training.data import held_back, written
+from parley.language.builtin.training.markup import read_line, read_text
 
 EVALUATION = sorted((Path(__file__).parents[3] / "eval").glob("*.yaml"))
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import random
 
-from parley.language.builtin.markup import Annotated, read_line
 from parley.language.builtin.training.data import written
+from parley.language.builtin.training.markup import Annotated, read_line
 from parley.language.builtin.training.varying import exchanged, joined, vary
 
 TWO = read_line("order\t{take:TAKE} (T the old *box) and {leave:!TAKE} (T the other *half) (G in the *hall)")

@@ -10,7 +10,7 @@ from importlib.resources.abc import Traversable
 import yaml
 
 from parley.language.builtin.labels import DESCRIBED
-from parley.language.builtin.markup import Annotated, read_text
+from parley.language.builtin.training.markup import Annotated, read_text
 from parley.language.builtin.training.varying import filled
 
 __all__ = ["data_hash", "descriptions", "from_templates", "held_back", "written"]

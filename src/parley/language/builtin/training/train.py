@@ -25,8 +25,8 @@ from torch import Tensor, nn
 
 from parley.language.builtin import labels
 from parley.language.builtin.labels import DESCRIBED, HEADS
-from parley.language.builtin.markup import Annotated
 from parley.language.builtin.training import data
+from parley.language.builtin.training.markup import Annotated
 from parley.language.builtin.training.net import Tagger, load_base, load_shipped
 from parley.language.builtin.training.varying import exchanged, joined, vary
 from parley.language.builtin.wordpiece import WordPiece

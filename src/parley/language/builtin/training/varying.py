@@ -7,7 +7,8 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
-from parley.language.builtin.markup import Act, Annotated, RoleSpan, Trigger, read_line
+from parley.language.builtin.labels import Act
+from parley.language.builtin.training.markup import Annotated, RoleSpan, Trigger, read_line
 
 __all__ = ["exchanged", "fill", "joined", "vary"]
 

@@ -5,35 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Literal, get_args
 
 from parley.errors import FileFormatError
+from parley.language.builtin.labels import ACTS, FRAMES, ROLES, Act, Mode, Move, Role
 from parley.language.builtin.tokens import tokenize
 
-__all__ = [
-    "ACTS",
-    "FRAMES",
-    "MODES",
-    "MOVES",
-    "ROLES",
-    "Act",
-    "Annotated",
-    "Mode",
-    "Move",
-    "Role",
-    "RoleSpan",
-    "Trigger",
-    "read_line",
-    "read_text",
-]
-
-Act = Literal["order", "question", "told", "need", "control", "answer", "social", "edit", "alarm"]
-ACTS: tuple[Act, ...] = get_args(Act)
-"""What a clause does in the conversation."""
-
-Move = Literal["none", "yes", "no", "stop", "pause", "resume", "cancel", "again"]
-MOVES: tuple[Move, ...] = get_args(Move)
-"""Which answer, which control, or the same order once more."""
+__all__ = ["Annotated", "RoleSpan", "Trigger", "read_line", "read_text"]
 
 _MOVES: Mapping[str, tuple[Act, Move]] = {
     "yes": ("answer", "yes"),
@@ -46,27 +23,9 @@ _MOVES: Mapping[str, tuple[Act, Move]] = {
 }
 """What may stand in place of an act, with the act that it is."""
 
-Mode = Literal["plain", "negated", "otherwise", "later", "earlier", "allowed"]
-MODES: tuple[Mode, ...] = get_args(Mode)
-"""How a deed is meant: as it is, forbidden, if a condition fails, behind or before another, let again."""
-
 _SIGNS: Mapping[str, Mode] = {
     "": "plain", "!": "negated", "~": "otherwise", ">": "later", "<": "earlier", "^": "allowed"
 }  # fmt: skip
-
-Role = Literal[
-    "T", "G", "S", "L", "R", "H", "N", "D", "K", "X", "C", "U", "W", "M", "A", "Y", "E", "P", "I", "O"
-]
-ROLES: tuple[Role, ...] = get_args(Role)
-"""What a span is to its frame."""
-
-FRAMES: tuple[str, ...] = (
-    "GO", "TURN", "BRING", "TAKE", "PUT", "GIVE", "FIND", "LOOK", "FOLLOW", "GUIDE", "ON", "OFF", "OPEN",
-    "CLOSE", "CONNECT", "DISC", "SAY", "ASK", "WAIT", "PHOTO", "COUNT", "CLEAN", "POUR", "CUT", "MIX",
-    "COOK", "MAKE",
-    "ANSWER", "CHARGE", "PUSH", "DO", "BELOC", "BECAT", "REMEMBER", "FORGET",
-)  # fmt: skip
-"""What may be wanted of somebody, and what may be told."""
 
 _PIECE = re.compile(
     r"\{(?P<words>[^{}:]+):(?P<mode>[!~<>^]?)(?P<frame>[A-Z]+|\+)\}"

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from parley.actions.builtin import BUILTIN_ACTIONS
+from parley.evaluation.say_tests import run_say_tests
 from parley.language.builtin.engine import BuiltinLanguage
-from parley.language.say_tests import run_say_tests
 from parley.umrf.action import ActionSpec, action
 from parley.umrf.catalogue import Catalogue
 
