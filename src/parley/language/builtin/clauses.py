@@ -175,6 +175,8 @@ def _is_link(parse: Parse, low: Sequence[str], at: int, size: int, link: Link, l
         return False
     if low[at] == "else":
         return apart
+    if link == "after" and before and lexicon.exactly([before, "after"]) and not low[at + 1].endswith("ing"):
+        return low[at + 1] in _BEING | _BACK  # "go after Kim" is following
     if low[at] == "once":
         return at + 2 < len(low) and low[at + 1] not in _STOPS | _JOINS
     if link == "not" and low[at] == "not":

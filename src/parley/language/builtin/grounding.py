@@ -461,7 +461,7 @@ def _at_point(filler: Filler) -> Value | None:
     return Value(text, f"the {text}", point=point)
 
 
-WITHIN = frozenset({"in", "on", "inside", "within", "at"})
+WITHIN = frozenset({"in", "on", "inside", "within", "at", "from"})
 """Where something is; "by" and "between" tell which one it is."""
 _BESIDE = frozenset({"next", "near", "beside", "by", "behind", "opposite", "close"})
 _SHOWN = 3

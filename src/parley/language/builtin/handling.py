@@ -60,7 +60,13 @@ class Handling(Ways):
         find = find.fitting(person=False) if find is not None else None
         if thing is None or wish.frame not in (*HANDLED, "BRING") or find is None or "T" not in find.roles:
             return []
-        known = thing.things or thing.place or thing.each or {*"SL"} & {*values} or self.at
+        known = (
+            thing.things
+            or thing.place
+            or thing.each
+            or {*"SL"} & {*values}
+            or (self.at and wish.frame != "GIVE")
+        )
         if known or thing.argument in self.held or self.sought[1] == thing.argument:
             return []
         self.sought = (self.at, thing.argument)

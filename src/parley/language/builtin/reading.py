@@ -51,6 +51,10 @@ def read(parse: Parse, lexicon: Lexicon) -> Reading:
     implied = [_implied(parse, filler, lexicon, steered) or _asked_for(parse, filler) for filler in loose]
     implied_wishes = _joined([wish for wish in implied if wish is not None])
     rest = tuple(filler for filler, wish in zip(loose, implied, strict=True) if wish is None)
+    if len(implied_wishes) == 1 and implied_wishes[0].frame == "BRING":  # "I'd like the box from the desk"
+        where = tuple(filler for filler in rest if filler.role in "SL")
+        implied_wishes = [replace(implied_wishes[0], fillers=(*implied_wishes[0].fillers, *where))]
+        rest = tuple(filler for filler in rest if filler not in where)
     ordered = sorted([*wishes, *implied_wishes], key=lambda wish: wish.start)
     wanted = _without_openers(_once([retyped(wish, lexicon) for wish in ordered]), parse)
     wanted = _led(_shared(wanted))
@@ -452,6 +456,8 @@ def _left_over(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
         taken |= set(range(span.start, span.end))
     taken |= _own_state(parse, lexicon)
     taken |= {at for verb in parse.verbs for at in _opened(parse, verb)}
+    if any(verb.frame == "ANSWER" for verb in parse.verbs):
+        taken |= {at for at, token in enumerate(parse.tokens) if token.low in ("question", "questions")}
     low = [token.low for token in parse.tokens]
     starts = {span.start for span in parse.spans}
     small = lexicon.classes["small"]

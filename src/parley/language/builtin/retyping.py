@@ -19,6 +19,7 @@ _AT = frozenset(
 )
 """Prepositions that say where something is, and not where to."""
 _TOLD_OF = frozenset({"what", "which", "who", "how", "where", "if", "whether"})
+_NUMBERS = frozenset({("number", "of"), ("amount", "of")})
 _BEING = frozenset({"is", "are", "there", "'s", "do", "does", "you", "see"})
 _JOINED = 2
 """So many marks and words at most stand between what is listed: ", and"."""
@@ -56,6 +57,10 @@ def retyped(wish: Wish, lexicon: Lexicon) -> Wish:
 
 def _looked_at(wish: Wish) -> Wish:
     """Looking on a thing is looking at it: "look on the desk"; telling me something is saying it."""
+    thing = wish.one("T")
+    bare = [word for word in thing.words if word != "the"] if thing is not None else []
+    if wish.frame == "LOOK" and thing is not None and tuple(bare[:2]) in _NUMBERS and len(bare) > 2:
+        return replace(wish, frame="COUNT", fillers=(_counted(thing, bare[2:]), *wish.all("L")))
     if wish.frame != "LOOK" or wish.has("TK"):
         return wish
     on = [f for f in wish.all("L") if f.words[0] in ("on", "in", "inside", "at") and len(f.words) > 1]
@@ -68,6 +73,8 @@ def _met(wish: Wish, lexicon: Lexicon) -> Wish:
     if wish.frame == "FIND" and mine and wish.has("L"):  # "meet me at the desk"
         met = replace(wish, frame="GO", fillers=tuple(f for f in wish.fillers if f not in mine))
         return _renamed(met, "L", "G", [*met.all("L")])
+    if wish.frame == "FIND" and not wish.has("T") and wish.has("L"):  # "locate the office"
+        return _renamed(replace(wish, frame="GO"), "L", "G", [*wish.all("L")])
     if wish.frame == "FIND" or wish.has("R"):
         wish = _renamed(wish, "G", "L", [f for f in wish.all("G") if f.words[0] in _AT])
     if wish.frame != "FIND" and not wish.has("T") and len(wish.all("R")) == 2:
@@ -87,14 +94,19 @@ def _seen(wish: Wish) -> Wish:
     ):  # "what | the box on the desk | is"
         said = _run(said, behind)
         wish = replace(wish, fillers=(*(f for f in wish.fillers if f.role != "K" and f not in behind), said))
-    if said.words[:2] != ("how", "many"):
+    bare = [word for word in said.words if word not in _BEING | {"the", "what", "whats"}]
+    if tuple(bare[:2]) not in {("how", "many"), *_NUMBERS} or len(bare) < 3:
         return wish
-    counted = tuple(word for word in said.words[2:] if word not in _BEING)
-    head = next((at for at, word in enumerate(counted) if word in _AT or word.endswith("ing")), len(counted))
-    if not counted or not head:
-        return wish
-    of = Filler("T", said.start, said.end, head - 1, counted, said.share, " ".join(counted))
-    return replace(wish, frame="COUNT", fillers=(of, *(f for f in wish.fillers if f.role in "TLG")))
+    counted = _counted(said, bare[2:])
+    return replace(wish, frame="COUNT", fillers=(counted, *(f for f in wish.fillers if f.role in "TLG")))
+
+
+def _counted(said: Filler, words: list[str]) -> Filler:
+    """What is counted, of the words that ask how many there are."""
+    head = next(
+        (at for at, word in enumerate(words) if at and (word in _AT or word.endswith("ing"))), len(words)
+    )
+    return Filler("T", said.start, said.end, head - 1, tuple(words), said.share, " ".join(words))
 
 
 def _run(first: Filler, others: list[Filler]) -> Filler:

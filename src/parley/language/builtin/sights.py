@@ -19,6 +19,8 @@ __all__ = ["sight_asked_for"]
 
 _ASKING: Final = frozenset({"what", "which", "who", "how", "whats"})
 _THINGS: Final = frozenset({"object", "item", "thing", "article", "colour", "color", "pose", "gender"})
+_OF: Final = frozenset({"of", "on", "in", "from"})
+"""How a question begins that says first where: "of the boxes on the desk, which is the largest?"."""
 _FEWEST: Final = 4
 _COURTESY: Final = frozenset({"please", "thanks", "robot"})
 _THEN: Final = frozenset(
@@ -47,11 +49,12 @@ def sight_asked_for(
     start = next((at for at, word in enumerate(words) if word in _ASKING), None)
     if start is None or len(names) != 1 or len(names[0].things) != 1:
         return None
-    said = words[start:]
+    said = words if words[0] in _OF else words[start:]
+    start = 0 if said == words else start
     if len(said) < _FEWEST or _is_told(names[0], situation):
         return None
     about = {stem(word) for word in said} - {stem(word) for word in names[0].words}
-    counts = said[:2] == ("how", "many")
+    counts = said[:2] == ("how", "many") or {*said[:5]} >= {"number", "of"}
     who = said[0] == "who" and said[1] in ("is", "'s", "’s") and said[2] in lexicon.classes["prepositions"]
     seen = who or (said[0] != "who" and (counts or about & _THINGS or any(map(is_somebody, about))))
     elsewhen = {*said} & (
