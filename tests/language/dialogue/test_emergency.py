@@ -46,6 +46,22 @@ def test_a_real_one_is_told_and_the_order_beside_it_is_offered(told: str, order:
     assert isinstance(agreed, Do) and agreed == ENGINE.decide(situation(order))
 
 
+@pytest.mark.parametrize("told", ["a crate is blocking the front gate", "the pump is making a strange noise"])
+def test_what_is_amiss_with_a_thing_is_offered_to_be_looked_at_and_alarms_nobody(told: str) -> None:
+    asked = ENGINE.decide(situation(told))
+    assert isinstance(asked, Ask) and not asked.alarms and asked.offer
+    assert "have a look?" in asked.question
+
+
+@pytest.mark.parametrize(
+    "told",
+    ["a crate has fallen on Kim at the ramp", "the pump is on fire", "a man is stuck in the front gate"],
+)
+def test_people_and_danger_alarm_everybody(told: str) -> None:
+    asked = ENGINE.decide(situation(told))
+    assert isinstance(asked, Ask) and asked.alarms
+
+
 def test_an_order_that_depends_on_something_is_not_taken_out_of_it() -> None:
     asked = ENGINE.decide(situation("if the pump is on, Kim fell, go to the desk"))
     assert isinstance(asked, Ask) and asked.alarms and "go to the desk" not in asked.choices

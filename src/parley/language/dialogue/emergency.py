@@ -8,6 +8,7 @@ from typing import Final
 
 from parley.language.base import Situation
 from parley.language.builtin.decision import Ask, Decision, Do, Edit
+from parley.language.builtin.grounding import is_somebody
 from parley.language.builtin.lexicon import Lexicon, lemmas
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.tokens import Token, tokenize
@@ -76,7 +77,29 @@ def emergency(
     danger = any(_danger(one, lexicon) for one in told)
     if len(serious) < len(told) and not danger and not any("alarm" in reader(one).acts for one in serious):
         return again(order)
+    if not order and not _concerns_people(text, lexicon):
+        return _to_be_seen(situation, tokens, lexicon, again) or _alarm(situation, tokens, lexicon, order)
     return _alarm(situation, tokens, lexicon, order)
+
+
+def _concerns_people(text: str, lexicon: Lexicon) -> bool:
+    """Whether what alarms has a word of danger, or somebody in it: a box in the way is no emergency."""
+    words = [token.low for token in tokenize(text) if token.is_word]
+    people = lexicon.classes["persons"] | lexicon.classes["me"]
+    named_so = any(word.istitle() for word in text.split()[1:])
+    return bool(_danger(text, lexicon)) or named_so or any(is_somebody(w) or w in people for w in words)
+
+
+def _to_be_seen(
+    situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, again: Callable[[str], Decision]
+) -> Ask | None:
+    """What is amiss with a thing is offered to be looked at; None if nobody knows where that is."""
+    names = [name for name in named(tokens, situation.objects, lexicon) if len(name.things) == 1]
+    where = names[-1].things[0].description if names else ""
+    made = again(f"check the {where}") if where else None
+    if not isinstance(made, Do) or situation.status == "running":
+        return None
+    return Ask(f"Shall I go to the {where} and have a look?", offer=made.deeds)
 
 
 def _helps_robot(situation: Situation, lexicon: Lexicon, again: Callable[[str], Decision]) -> Decision | None:
