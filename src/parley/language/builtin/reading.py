@@ -223,11 +223,9 @@ def _filler(parse: Parse, span: Span, lexicon: Lexicon) -> Filler:
             start += 1
         while end - 1 > start and parse.tokens[end - 1].low in _FOCUS:
             end -= 1
-    along = (
-        span.role in "GLP" and end - start > 2 and parse.tokens[start].low in ("down", "up", "round", "over")
-    )
-    if along and parse.tokens[start + 1].low in lexicon.classes["determiners"]:
-        start += 1  # "down the corridor"
+    if span.role in "GLP" and end - start > 2 and parse.tokens[start].low in _ALONG:
+        led = parse.tokens[start + 1].low
+        start += led == "to" or led in lexicon.classes["determiners"]  # "down the hall", "up to the desk"
     words = tuple(token.low for token in parse.tokens[start:end])
     head = min(max(span.head, start), end - 1) - start
     small = lexicon.classes["prepositions"] | lexicon.classes["determiners"]
