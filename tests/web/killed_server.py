@@ -2,21 +2,27 @@
 
 Run as ``python -m tests.web.killed_server FOLDER MOMENT``: `never`, `kept` (a message is stored, and
 goes out now) or `heard` (as soon as a robot got one). The kill is a real one, of this process by itself.
+With `deaf` planning is there and takes nothing.
 """
 
 from __future__ import annotations
 
 import asyncio
+import json
 import os
 import signal
 import sys
 from pathlib import Path
 
 from parley.messages import topics
+from parley.messages.chat import PressTaken
 from parley.messages.ros import String
+from parley.messages.status import ActorStatus
 from parley.messages.topics import Topic
+from parley.messages.wire import to_string
 from parley.transport.base import M, Publisher
 from parley.transport.local import LocalTransport
+from parley.web import backend
 from parley.web.config import WebConfig
 from parley.web.server import WebServer
 
@@ -53,12 +59,26 @@ async def main(folder: Path, moment: str) -> None:
                 die()
 
         async with (DiesBeforeSending if moment == "kept" else LocalTransport)() as transport:
+            taken = transport.publisher(topics.PRESS_TAKEN)
+
+            def take(message: String) -> None:
+                press = json.loads(message.data)["press"]
+                taken.publish(to_string(PressTaken(run="r1", id=f"{press['page']}.{press['number']}")))
+                hear(message)
+
             await transport.subscribe(topics.CHAT_INPUT, hear, depth=1000)
+            if moment != "deaf":
+                await transport.subscribe(topics.CHAT_ACTION, take, depth=1000)
             async with WebServer(transport, WebConfig(port=0, data_dir=folder)) as server:
+                taken.publish(to_string(PressTaken(run="r1")))
+                for name in ("Ada", "Bob"):
+                    status = ActorStatus.model_validate({"actor": name, "state": "idle"})
+                    transport.publisher(topics.ACTOR_STATUS).publish(to_string(status))
                 sys.stdout.write(server.url + "\n")
                 sys.stdout.flush()
                 await asyncio.Event().wait()
 
 
 if __name__ == "__main__":
+    backend.PRESSED_WITHIN_S = 30.0  # type: ignore[misc]  # the next one may be long in coming, where tests run
     asyncio.run(main(Path(sys.argv[1]), sys.argv[2]))

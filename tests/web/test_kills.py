@@ -5,12 +5,14 @@ from __future__ import annotations
 import itertools
 import json
 import random
+import sqlite3
 import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import httpx
@@ -51,10 +53,15 @@ def heard(folder: Path) -> list[dict[str, object]]:
 
 def until_heard(folder: Path) -> None:
     """Wait until a robot's side has heard something."""
+    assert until(lambda: bool(heard(folder)))
+
+
+def until(true: Callable[[], bool]) -> bool:
+    """Whether it becomes true in time."""
     ends_s = time.monotonic() + 30
-    while not heard(folder):
-        assert time.monotonic() < ends_s
+    while not (is_true := true()) and time.monotonic() < ends_s:
         time.sleep(0.01)
+    return is_true
 
 
 def acted_on(folder: Path) -> list[object]:
@@ -95,6 +102,28 @@ def test_a_message_that_was_kept_just_before_a_kill_goes_out_by_itself(tmp_path:
             until_heard(tmp_path)
     assert acted_on(tmp_path) == ["go to m1"]
     assert len(heard(tmp_path)) <= 2
+
+
+def test_a_button_that_was_acknowledged_before_a_kill_works_after_it_or_is_told_of(tmp_path: Path) -> None:
+    with server(tmp_path, "deaf") as (process, client):
+
+        def press(name: str) -> bool:
+            return client.post(f"/api/plans/{name}/command", json={"command": "resume"}).status_code == 200
+
+        assert all(until(partial(press, name)) for name in ("Ada", "Bob"))
+        process.kill()
+        process.wait(15)
+    with sqlite3.connect(tmp_path / "web.db") as kept:
+        kept.execute("UPDATE press SET unix_ms = unix_ms - 60000 WHERE message LIKE '%Bob%'")
+    with server(tmp_path, "never") as (_, client):
+        entries = client.get("/api/chat").json()["entries"]
+        assert [entry["targets"] for entry in entries if "interrupted" in entry["message"]] == [["Bob"]]
+        until_heard(tmp_path)
+        assert [said["targets"] for said in heard(tmp_path)] == [["Ada"]]
+        assert until(lambda: not kept.execute("SELECT * FROM press").fetchall()), (
+            "nor once more the next time"
+        )
+    kept.close()
 
 
 def test_everything_that_was_acknowledged_before_a_kill_is_there(tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ from parley.clock import Clock, WallClock
 from parley.errors import StoreError
 from parley.gate.stop_line import StopLine
 from parley.language.stop_words import has_stop_word
-from parley.messages.chat import ChatAction, ChatFeedback, ChatImage, ChatInput
+from parley.messages.chat import ChatFeedback, ChatImage, ChatInput
 from parley.messages.map import MapView
 from parley.messages.principal import Principal, person
 from parley.messages.status import PlanDecision
@@ -29,7 +29,7 @@ from parley.web.config import Module, WebConfig
 from parley.web.feed_state import Picture
 from parley.web.feeds import Feeds
 from parley.web.keeper import Keeper
-from parley.web.link import Link
+from parley.web.link import Link, Pressed, halts, robots_of
 from parley.web.models import ChatEntry, Favourite, Policy, RobotView, ServerInfo, Snapshot
 from parley.web.people.store import FILE, PeopleStore
 from parley.web.pictures import kept_picture
@@ -54,6 +54,10 @@ PRESSED_WITHIN_S: Final = 5.0
 NOT_TAKEN: Final = sentence(
     "A button was pressed, but planning does not answer, so nothing may have been done for it. Look how "
     "things stand, and press again if it still holds."
+)
+CUT_OFF: Final = sentence(
+    "A button was pressed just before the page was interrupted, so nothing may have been done for it. Look "
+    "how things stand, and press again if it still holds."
 )
 AGAIN_S: Final = 1.0
 """Wall time between two tries."""
@@ -146,6 +150,7 @@ class Backend:
                 self.transport,
                 self.state,
                 self.clock,
+                pressed=await self.store.pressed(),
                 on_view=self._on_view,
                 on_joined=self._on_joined,
                 on_planner=self._on_planner,
@@ -327,22 +332,45 @@ class Backend:
         await self.store.mark_sent(entry.id)
         del self._unread[entry.id]
 
-    def press(self, message: ChatAction | PlanDecision) -> None:
-        """Send what a button does, again until whoever plans has taken it, or tell that it may not have."""
-        if press := self.link.press(message):
-            self._unread[press] = asyncio.create_task(self._until_taken(press, message), name="web press")
+    async def press(self, message: Pressed) -> None:
+        """Keep what a button does and send it until whoever plans has taken it, or tell that it may not have.
 
-    async def _until_taken(self, press: str, message: ChatAction | PlanDecision) -> None:
+        Raises:
+            StoreError: It cannot be kept; then it is not sent either, unless it halts.
+        """
+        message = self.link.number(message)
+        if first := halts(message):  # no disk is waited for
+            self._send_press(message, PRESSED_WITHIN_S)
+        if message.press is not None:
+            try:
+                await self.store.keep_press(message, self.clock.unix_ms())
+            except StoreError as error:
+                if not first:
+                    raise
+                log.error("press not stored", id=message.press.id, problem=str(error))
+        if not first:
+            self._send_press(message, PRESSED_WITHIN_S)
+
+    def _send_press(self, message: Pressed, within_s: float) -> None:
+        self.link.press(message)
+        if message.press is not None:
+            work = self._until_taken(message.press.id, message, within_s)
+            self._unread[message.press.id] = asyncio.create_task(work, name="web press")
+
+    async def _until_taken(self, press: str, message: Pressed, within_s: float) -> None:
         try:
-            async with asyncio.timeout(PRESSED_WITHIN_S):
+            async with asyncio.timeout(within_s):
                 await self.link.until_read([press], again_s=AGAIN_S)
         except TimeoutError:
-            targets = message.targets if isinstance(message, ChatAction) else (message.target,)
-            told = ChatFeedback(message=NOT_TAKEN, targets=targets, type="error")
-            self.state.chat.on_feedback(told, unix_ms=self.clock.unix_ms())
-            if isinstance(message, PlanDecision):
-                self.state.plans.on_unheard(message)
+            self._tell_untaken(message, NOT_TAKEN)
+        await self.store.drop_press(message)
         del self._unread[press]
+
+    def _tell_untaken(self, message: Pressed, text: str) -> None:
+        told = ChatFeedback(message=text, targets=robots_of(message), type="error")
+        self.state.chat.on_feedback(told, unix_ms=self.clock.unix_ms())
+        if isinstance(message, PlanDecision):
+            self.state.plans.on_unheard(message)
 
     async def _give_up_reading(self) -> None:
         for task in tuple(self._unread.values()):
@@ -357,6 +385,13 @@ class Backend:
                 continue
             self._tell_unread(entry)
             await self.store.mark_sent(entry.id)
+        for pressed_ms, message in await self.store.presses():
+            left_s = PRESSED_WITHIN_S - (now_ms - pressed_ms) / 1000
+            if not self.config.fresh_robots and 0 < left_s <= PRESSED_WITHIN_S:
+                self._send_press(message, left_s)
+                continue
+            self._tell_untaken(message, CUT_OFF)
+            await self.store.drop_press(message)
 
     def _tell_unread(self, entry: ChatEntry) -> None:
         said = f"“{entry.message}”" if entry.message else "your picture"
@@ -417,7 +452,7 @@ class Backend:
         await self.store.set("policy", robot, policy)
         await self.store.set("policy_by", robot, by.model_dump_json())
         self._policies[robot], self._policy_by[robot] = policy, by.model_dump_json()
-        self.press(self._policy_told(robot))
+        await self.press(self._policy_told(robot))
 
     # -- what comes in ---------------------------------------------------------------------------------
 

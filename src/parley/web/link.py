@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Final, Self, TypeVar
+from typing import Final, Self, TypeAlias, TypeVar
 
 import structlog
 from pydantic import BaseModel
@@ -38,11 +37,13 @@ from parley.transport.losses import Losses
 from parley.umrf.io import read_graph
 from parley.web.state import WebState
 
-__all__ = ["Link"]
+__all__ = ["Link", "Pressed", "halts", "robots_of"]
 
 log = structlog.get_logger(__name__)
 
 P = TypeVar("P", bound=BaseModel)
+Pressed: TypeAlias = ChatAction | PlanDecision
+"""What a button does."""
 
 TICK_S: Final = 0.25
 """Wall time between two looks at what is overdue."""
@@ -73,9 +74,21 @@ _LOST: Final = (
 )
 
 
+def robots_of(message: Pressed) -> tuple[str, ...]:
+    """Whom a button is for; empty: all."""
+    return message.targets if isinstance(message, ChatAction) else (message.target,)
+
+
+def halts(message: Pressed) -> bool:
+    """Whether less happens by it than without."""
+    if isinstance(message, PlanDecision):
+        return message.decision == "reject"
+    return any(command.command in ("stop", "clear") for command in message.system_cmd)
+
+
 @dataclass(slots=True)
 class _Unread:
-    message: ChatInput | ChatAction | PlanDecision
+    message: ChatInput | Pressed
     robots: tuple[str, ...]
     read: asyncio.Event = field(default_factory=asyncio.Event)
     overtaken: bool = False
@@ -89,6 +102,7 @@ class Link:
         transport: Opened by the caller; only what is opened here is closed here.
         state: Gets every message.
         clock: Wall time.
+        pressed: The page of this server and the number of the last press there, also of earlier runs.
         on_view: Told after a robot's place on the map changed.
         on_joined: Told when a robot is heard of for the first time, or was started anew.
         on_planner: The same of whoever plans.
@@ -100,6 +114,7 @@ class Link:
         state: WebState,
         clock: Clock,
         *,
+        pressed: tuple[str, int],
         on_view: Callable[[MapView], None] = lambda _: None,
         on_joined: Callable[[str], None] = lambda _: None,
         on_planner: Callable[[], None] = lambda: None,
@@ -114,7 +129,7 @@ class Link:
         """Whether whoever reads what people say was ever heard to say so; a node of another make does not."""
         self._unread: dict[str, _Unread] = {}
         """Words and presses that were published, by their id."""
-        self._planner, self._presses = "", itertools.count()
+        self._planner, (self._page, self._pressed) = "", pressed
         self._losses = Losses(self._tell_lost)
         self._memory_waits: dict[str, list[asyncio.Future[MemoryEvent]]] = {}
 
@@ -203,20 +218,23 @@ class Link:
         finally:
             del self._echoes[message.id]
 
-    def press(self, message: ChatAction | PlanDecision) -> str:
-        """Publish what a button does; its id for `until_read`, empty if no planner says what it takes.
+    def number(self, message: Pressed) -> Pressed:
+        """What a button does with the number of its press, without one if no planner says what it takes.
 
         What was pressed before is not sent again, nor after a pause or a drop what was said before.
         """
-        robots = message.targets if isinstance(message, ChatAction) else (message.target,)
-        commands = message.system_cmd if isinstance(message, ChatAction) else ()
-        self._overtake(robots, words=any(command.command in ("stop", "clear") for command in commands))
-        press = Press(page=self._state.log.run, number=next(self._presses), to=self._planner)
-        if self._planner:
-            message = message.model_copy(update={"press": press})
-            self._unread[press.id] = _Unread(message, robots)
+        self._overtake(robots_of(message), words=isinstance(message, ChatAction) and halts(message))
+        if not self._planner:
+            return message
+        self._pressed = max(self._pressed + 1, self._clock.unix_ms())  # behind each of an earlier run
+        press = Press(page=self._page, number=self._pressed, to=self._planner)
+        return message.model_copy(update={"press": press})
+
+    def press(self, message: Pressed) -> None:
+        """Publish what a button does; where its press has a number, `until_read` has to follow."""
+        if message.press is not None:
+            self._unread[message.press.id] = _Unread(message, robots_of(message))
         self.send(message)
-        return press.id if self._planner else ""
 
     def _overtake(self, robots: Sequence[str], *, words: bool = False) -> None:
         """Something newer goes to robots (none: all): a late deed is worse than a question."""

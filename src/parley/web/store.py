@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import sqlite3
+import uuid
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,11 +20,13 @@ from parley.clock import Clock
 from parley.errors import StoreError
 from parley.memory.database import Database
 from parley.messages.chat import ChatInput
+from parley.web.link import Pressed
 from parley.web.models import ChatEntry
 
 __all__ = ["KeptPicture", "WebStore"]
 
 _MESSAGES: Final = TypeAdapter(tuple[ChatInput, ...])
+_PRESSED: Final = TypeAdapter[Pressed](Pressed)
 MAX_PICTURES = 1000
 """The oldest pictures go when there are more."""
 
@@ -115,6 +118,36 @@ class WebStore:
             ).fetchall()
         )
         return [(ChatEntry.model_validate_json(row[0]), _MESSAGES.validate_json(row[1])) for row in rows]
+
+    async def pressed(self) -> tuple[str, int]:
+        """What this page's server is called over restarts, and the number of the last press there."""
+
+        def work(db: sqlite3.Connection) -> tuple[str, int]:
+            db.execute("INSERT OR IGNORE INTO setting VALUES ('server', 'page', ?)", (uuid.uuid4().hex,))
+            (page,) = db.execute("SELECT value FROM setting WHERE kind = 'server'").fetchone()
+            last = db.execute("SELECT seq FROM sqlite_sequence WHERE name = 'press'").fetchone()
+            return str(page), int(last[0]) if last else 0
+
+        return await self._database.run(work)
+
+    async def keep_press(self, press: Pressed, unix_ms: int) -> None:
+        """Store what a button does until `drop_press`; it is durable afterwards."""
+        assert press.press is not None
+        row = (press.press.number, unix_ms, press.model_dump_json())
+        await self._database.run(lambda db: db.execute("INSERT INTO press VALUES (?, ?, ?)", row))
+
+    async def drop_press(self, press: Pressed) -> None:
+        """It was taken, or somebody was told that it was not."""
+        assert press.press is not None
+        row = (press.press.number,)
+        await self._database.run(lambda db: db.execute("DELETE FROM press WHERE number = ?", row))
+
+    async def presses(self) -> list[tuple[int, Pressed]]:
+        """What an earlier run left, and when it was pressed, oldest first."""
+        rows = await self._database.run(
+            lambda db: db.execute("SELECT unix_ms, message FROM press ORDER BY number").fetchall()
+        )
+        return [(int(row[0]), _PRESSED.validate_json(row[1])) for row in rows]
 
     async def entry(self, key: str) -> ChatEntry | None:
         """The entry of that key; None if there is none."""
@@ -261,6 +294,11 @@ _FORMS: Final = (
     """
     CREATE TABLE seen (picture TEXT PRIMARY KEY, robot TEXT NOT NULL, unix_ms INTEGER NOT NULL) STRICT;
     CREATE INDEX seen_when ON seen (robot, unix_ms);
+    """,
+    """
+    CREATE TABLE press (
+        number INTEGER PRIMARY KEY AUTOINCREMENT, unix_ms INTEGER NOT NULL, message TEXT NOT NULL
+    ) STRICT;
     """,
 )
 """What each version adds to the one before."""
