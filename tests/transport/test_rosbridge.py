@@ -13,7 +13,13 @@ import structlog
 from websockets.asyncio.server import ServerConnection, serve
 
 from parley.config import SystemConfig
-from parley.errors import TransportTimeoutError, TypeMismatchError, UnavailableError, UnsupportedError
+from parley.errors import (
+    TransportError,
+    TransportTimeoutError,
+    TypeMismatchError,
+    UnavailableError,
+    UnsupportedError,
+)
 from parley.messages.actions import Action, GoalId
 from parley.messages.ros import ChatRequest, ChatResponse, CompressedImage, Header, String, Time
 from parley.messages.topics import QoS, Service, Topic
@@ -69,6 +75,13 @@ async def test_where_nobody_listens_the_error_names_the_address() -> None:
     with pytest.raises(UnavailableError, match=f"{address}.*rosbridge_server"):
         async with RosbridgeTransport(address):
             pass
+
+
+async def test_where_something_else_listens_the_error_names_the_address() -> None:
+    async with RosbridgeServer() as first:
+        port = int(first.address.rpartition(":")[2])
+        with pytest.raises(TransportError, match=f"port {port}: something else is there"):
+            await RosbridgeServer(port).__aenter__()
 
 
 async def test_a_bridge_that_comes_back_is_told_of_all_ends_and_meanwhile_calls_fail_at_once() -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import base64
+import errno
 import itertools
 import uuid
 from collections.abc import Callable, Iterable
@@ -18,7 +19,7 @@ import structlog
 from websockets.asyncio.server import Server, ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 
-from parley.errors import InvalidMessageError
+from parley.errors import InvalidMessageError, TransportError
 from parley.messages.actions import GoalState
 from parley.transport.rosbridge.actions import REFUSED
 from parley.transport.rosbridge.frames import MAX_BYTES, Frame, read_frame, text_of, write_frame
@@ -113,9 +114,14 @@ class RosbridgeServer:
         }
 
     async def __aenter__(self) -> Self:
-        self._server: Server = await serve(
-            self._on_client, self._host, self._port, compression=None, max_size=MAX_BYTES, close_timeout=1.0
-        )
+        at = self._host, self._port
+        try:
+            self._server: Server = await serve(
+                self._on_client, *at, compression=None, max_size=MAX_BYTES, close_timeout=1.0
+            )
+        except OSError as error:
+            why = "something else is there" if error.errno == errno.EADDRINUSE else error.strerror or error
+            raise TransportError(f"cannot listen on {at[0]} port {at[1]}: {why}") from error
         self._port = next(iter(self._server.sockets)).getsockname()[1]
         return self
 
