@@ -92,6 +92,7 @@ async def test_a_button_that_the_planner_does_not_take_is_told_of_and_can_be_pre
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(backend, "PRESSED_WITHIN_S", 0.1)
+    monkeypatch.setattr(backend, "HALTED_WITHIN_S", 0.05)
     async with served("Ada") as rig:
         page = await rig.page()
         await planned(rig)
@@ -99,7 +100,10 @@ async def test_a_button_that_the_planner_does_not_take_is_told_of_and_can_be_pre
             await post(rig, "decision", id="p1", decision=decision, digest="d")
             await until(lambda: not rig.server.backend._unread)
         await page.until(lambda: len(page.of("chat")) == 2)
-        assert "planning does not answer" in page.of("chat")[0]["entry"]["message"]
+        yes, no = (change["entry"]["message"] for change in page.of("chat"))
+        assert "planning does not answer" in yes
+        assert "Press Stop" not in yes
+        assert "Press Stop" in no
         rig.robots.tell(topics.PLAN, PlanUpdate(target="Ada", graph_name="g", state="running", waits=()))
         await page.until(lambda: page.of("proposal_gone"))
 

@@ -51,6 +51,12 @@ RESEND_WITHIN_MS: Final = 30_000
 and for so long is one said again that nobody has read."""
 PRESSED_WITHIN_S: Final = 5.0
 """Wall time for which a button's press that nobody has taken is sent again: it acts soon, or not at all."""
+HALTED_WITHIN_S: Final = 1.0
+"""Wall time after which people are told that a button may not have halted what it is for."""
+NOT_HALTED: Final = sentence(
+    "A button was pressed, but planning does not answer, so what goes on may not have been halted by it. "
+    "Press Stop if it must not go on."
+)
 NOT_TAKEN: Final = sentence(
     "A button was pressed, but planning does not answer, so nothing may have been done for it. Look how "
     "things stand, and press again if it still holds."
@@ -358,11 +364,20 @@ class Backend:
             self._unread[message.press.id] = asyncio.create_task(work, name="web press")
 
     async def _until_taken(self, press: str, message: Pressed, within_s: float) -> None:
+        told = False
         try:
             async with asyncio.timeout(within_s):
-                await self.link.until_read([press], again_s=AGAIN_S)
+                taking = asyncio.create_task(self.link.until_read([press], again_s=AGAIN_S))
+                try:
+                    if halts(message) and not (await asyncio.wait({taking}, timeout=HALTED_WITHIN_S))[0]:
+                        self._tell_untaken(message, NOT_HALTED)
+                        told = True
+                    await taking
+                finally:
+                    taking.cancel()
         except TimeoutError:
-            self._tell_untaken(message, NOT_TAKEN)
+            if not told:
+                self._tell_untaken(message, NOT_TAKEN)
         await self.store.drop_press(message)
         del self._unread[press]
 
