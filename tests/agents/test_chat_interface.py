@@ -198,6 +198,21 @@ async def test_unknown_robot_is_named_with_those_that_exist(room: Room) -> None:
     assert room.planner.orders == []
 
 
+async def test_who_was_not_heard_of_yet_just_after_a_start_is_held_and_then_gets_what_was_said(
+    room: Room,
+) -> None:
+    room.observer.publish(topics.CHAT_INPUT, ChatInput(message="stop", targets=("Z",), id="m1"))
+    room.observer.publish(topics.CHAT_INPUT, ChatInput(message="stop", targets=("A",), id="m2"))
+    await room.planner.arrived.wait()
+    assert [(stop.command, stop.targets) for stop in room.planner.stops][:1] == [("hold", ("Z",))]
+    room.robot("Z")
+    async with asyncio.timeout(5):
+        while len(room.planner.orders) < 2:
+            room.planner.arrived.clear()
+            await room.planner.arrived.wait()
+    assert [order.targets for order in room.planner.orders] == [("Z",), ("A",)], "in their order"
+
+
 async def test_message_without_an_addressee_moves_nobody(room: Room) -> None:
     room.observer.publish(topics.CHAT_INPUT, ChatInput(message="look"))
     assert "Which robot" in await room.reply()

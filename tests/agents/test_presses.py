@@ -30,10 +30,10 @@ class Buttons:
     def number(self, number: int, to: str = "") -> Press:
         return Press(page="p", number=number, to=to or self.taken[0].run)
 
-    def press(self, command: CommandName, number: int, to: str = "") -> None:
+    def press(self, command: CommandName, number: int, to: str = "", robot: str = "A") -> None:
         action = ChatAction(
             system_cmd=(SystemCommand(command=command),),
-            targets=("A",),
+            targets=(robot,),
             by=KIM,
             press=self.number(number, to),
         )
@@ -59,6 +59,13 @@ async def test_a_press_that_comes_again_is_confirmed_again_and_done_once(buttons
     await until(lambda: [taken.id for taken in buttons.taken] == ["", "p.1", "p.1", "p.1"])
     await party.settled()
     assert party.steps()[1] == "running"
+
+
+async def test_a_press_for_a_robot_of_which_nothing_is_known_yet_is_not_confirmed(buttons: Buttons) -> None:
+    buttons.press("stop", 1, robot="B")
+    buttons.press("stop", 2)
+    await until(lambda: buttons.taken[-1].id == "p.2")
+    assert [taken.id for taken in buttons.taken] == ["", "p.2"]
 
 
 async def test_what_comes_behind_something_that_was_pressed_later_is_not_done(buttons: Buttons) -> None:

@@ -22,7 +22,7 @@ from parley.messages.topics import Topic
 from parley.messages.wire import to_string
 from parley.transport.base import M, Publisher
 from parley.transport.local import LocalTransport
-from parley.web import backend
+from parley.web import outbox
 from parley.web.config import WebConfig
 from parley.web.server import WebServer
 
@@ -80,5 +80,5 @@ async def main(folder: Path, moment: str) -> None:
 
 
 if __name__ == "__main__":
-    backend.PRESSED_WITHIN_S = 30.0  # type: ignore[misc]  # the next one may be long in coming, where tests run
+    outbox.PRESSED_WITHIN_S = 30.0  # type: ignore[misc]  # the next one may be long in coming, where tests run
     asyncio.run(main(Path(sys.argv[1]), sys.argv[2]))

@@ -10,7 +10,7 @@ import pytest
 
 from parley.messages import topics
 from parley.messages.chat import ChatInput, ChatRead, ReplyDraft
-from parley.web import backend
+from parley.web import outbox
 from tests.transport.backends import until
 from tests.web.rig import JPEG, Page, served
 
@@ -190,20 +190,20 @@ async def test_people_are_told_when_what_robots_said_was_lost_on_its_way_to_them
 async def test_what_nobody_has_read_is_said_again_until_it_is_and_once_it_was_no_more(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(backend, "AGAIN_S", 0.05)
+    monkeypatch.setattr(outbox, "AGAIN_S", 0.05)
     async with served("Ada") as rig:
         rig.robots.tell(topics.CHAT_READ, ChatRead())
         await rig.http.post("/api/chat", json=message("m1", "go home", "Ada"))
         await until(lambda: len(rig.robots.inputs) > 2)
         assert await rig.server.backend.store.unsent(), "a killed server sends it again"
         rig.robots.tell(topics.CHAT_READ, ChatRead(id="m1"))
-        await until(lambda: not rig.server.backend._unread)
+        await until(lambda: not rig.server.backend.outbox.waiting)
         assert not await rig.server.backend.store.unsent()
         assert {said.id for said in rig.robots.inputs} == {"m1"}
 
 
 async def test_what_nobody_reads_in_time_is_told_of(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(backend, "RESEND_WITHIN_MS", 100)
+    monkeypatch.setattr(outbox, "RESEND_WITHIN_MS", 100)
     async with served("Ada") as rig:
         page = await rig.page()
         rig.robots.tell(topics.CHAT_READ, ChatRead())
@@ -213,12 +213,12 @@ async def test_what_nobody_reads_in_time_is_told_of(monkeypatch: pytest.MonkeyPa
 
 
 async def test_a_reader_of_another_make_gets_each_message_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(backend, "AGAIN_S", 0.01)
-    monkeypatch.setattr(backend, "RESEND_WITHIN_MS", 100)
+    monkeypatch.setattr(outbox, "AGAIN_S", 0.01)
+    monkeypatch.setattr(outbox, "RESEND_WITHIN_MS", 100)
     async with served("Ada") as rig:
         page = await rig.page()
         await rig.http.post("/api/chat", json=message("m1", "go home", "Ada"))
-        await until(lambda: not rig.server.backend._unread)
+        await until(lambda: not rig.server.backend.outbox.waiting)
         assert len(rig.robots.inputs) == 1
         assert len(page.of("chat")) == 1
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from parley.messages import topics
-from parley.messages.chat import ActionCall, ChatRead, PressTaken
+from parley.messages.chat import ActionCall, ChatRead, Press, PressTaken
 from parley.messages.status import PlanProposal, PlanStep, PlanUpdate
-from parley.web import backend
+from parley.web import outbox
 from tests.transport.backends import until
 from tests.web.rig import Rig, served
 
@@ -28,7 +28,7 @@ async def post(rig: Rig, what: str, **body: str) -> None:
 async def test_a_button_is_sent_again_as_it_was_until_the_planner_has_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(backend, "AGAIN_S", 0.02)
+    monkeypatch.setattr(outbox, "AGAIN_S", 0.02)
     async with served("Ada") as rig:
         await planned(rig)
         await post(rig, "command", command="pause")
@@ -36,7 +36,7 @@ async def test_a_button_is_sent_again_as_it_was_until_the_planner_has_it(
         (press,) = {order.press for order in rig.robots.orders}
         assert press is not None and press.to == "r1"
         rig.robots.tell(topics.PRESS_TAKEN, PressTaken(run="r1", id=press.id))
-        await until(lambda: not rig.server.backend._unread)
+        await until(lambda: not rig.server.backend.outbox.waiting)
 
 
 async def test_a_planner_of_another_make_gets_a_button_once() -> None:
@@ -44,13 +44,13 @@ async def test_a_planner_of_another_make_gets_a_button_once() -> None:
         await post(rig, "command", command="pause")
         await rig.heard()
         assert [order.press for order in rig.robots.orders] == [None]
-        assert not rig.server.backend._unread
+        assert not rig.server.backend.outbox.waiting
 
 
 async def test_what_was_pressed_before_something_else_is_not_sent_again(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(backend, "AGAIN_S", 0.02)
+    monkeypatch.setattr(outbox, "AGAIN_S", 0.02)
     async with served("Ada", "Bob") as rig:
         await planned(rig)
         await post(rig, "decision", id="p1", decision="approve", digest="d")
@@ -72,7 +72,7 @@ async def test_what_was_pressed_before_something_else_is_not_sent_again(
 async def test_what_was_said_before_a_halt_is_not_said_again_after_it(
     monkeypatch: pytest.MonkeyPatch, halting: str
 ) -> None:
-    monkeypatch.setattr(backend, "AGAIN_S", 0.02)
+    monkeypatch.setattr(outbox, "AGAIN_S", 0.02)
     async with served("Ada") as rig:
         rig.robots.tell(topics.CHAT_READ, ChatRead())
         await planned(rig)
@@ -91,14 +91,14 @@ async def test_what_was_said_before_a_halt_is_not_said_again_after_it(
 async def test_a_button_that_the_planner_does_not_take_is_told_of_and_can_be_pressed_again(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(backend, "PRESSED_WITHIN_S", 0.1)
-    monkeypatch.setattr(backend, "HALTED_WITHIN_S", 0.05)
+    monkeypatch.setattr(outbox, "PRESSED_WITHIN_S", 0.1)
+    monkeypatch.setattr(outbox, "HALTED_WITHIN_S", 0.05)
     async with served("Ada") as rig:
         page = await rig.page()
         await planned(rig)
         for decision in ("approve", "reject"):
             await post(rig, "decision", id="p1", decision=decision, digest="d")
-            await until(lambda: not rig.server.backend._unread)
+            await until(lambda: not rig.server.backend.outbox.waiting)
         await page.until(lambda: len(page.of("chat")) == 2)
         yes, no = (change["entry"]["message"] for change in page.of("chat"))
         assert "planning does not answer" in yes
@@ -106,6 +106,30 @@ async def test_a_button_that_the_planner_does_not_take_is_told_of_and_can_be_pre
         assert "Press Stop" in no
         rig.robots.tell(topics.PLAN, PlanUpdate(target="Ada", graph_name="g", state="running", waits=()))
         await page.until(lambda: page.of("proposal_gone"))
+
+
+async def test_robots_that_words_hold_which_nobody_reads_are_paused_before_they_are_let_go(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(outbox, "AGAIN_S", 0.02)
+    monkeypatch.setattr(outbox, "RESEND_WITHIN_MS", 100)
+    async with served("Ada") as rig:
+        rig.robots.tell(topics.CHAT_READ, ChatRead())
+        await planned(rig)
+        await rig.http.post("/api/chat", json={"id": "m1", "text": "stop", "targets": ["Ada"]})
+        await until(lambda: len(rig.robots.inputs) > 1)
+        await rig.http.post("/api/plans/Ada/command", json={"command": "resume"})  # takes nothing back
+
+        def pauses() -> list[Press | None]:
+            return [order.press for order in rig.robots.orders if order.system_cmd[0].command == "stop"]
+
+        await until(lambda: len(pauses()) > 2)
+        assert [stop.command for stop in rig.robots.stops] == ["hold"]
+        press = pauses()[0]
+        assert press is not None
+        rig.robots.tell(topics.PRESS_TAKEN, PressTaken(run="r1", id=press.id))
+        await until(lambda: [(stop.command, stop.id) for stop in rig.robots.stops][1:] == [("go_on", "m1")])
+        assert not await rig.server.backend.store.unsent()
 
 
 async def test_a_step_is_dropped_by_what_it_is_called_and_not_by_its_place() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Final
 
@@ -16,10 +16,12 @@ from parley.messages.status import ActorStatus, StopReport
 from parley.sentences import sentence
 from parley.transport.base import Transport
 
-__all__ = ["LOST_AFTER_S", "STARVED_AFTER_S", "Presence", "linked_to"]
+__all__ = ["ACQUAINTED_S", "LOST_AFTER_S", "STARVED_AFTER_S", "Presence", "linked_to"]
 
 LOST_AFTER_S: Final = 5.0
 """Wall time without a heartbeat after which a robot counts as gone."""
+ACQUAINTED_S: Final = 1.5
+"""Wall time after its start in which a node has heard of everybody who is there: they say so every second."""
 STARVED_AFTER_S: Final = 20.0
 """The same for one whose ends are still on the transport: its machine is short of time, or hangs."""
 
@@ -128,6 +130,11 @@ class Presence:
         return next(
             (known for known in (*self.names(), *sorted(self._left)) if known.casefold() == wanted), None
         )
+
+    def knows_all(self, names: Iterable[str]) -> bool:
+        """Whether all of these were ever there; of no names, whether anybody was."""
+        wanted = list(names)
+        return all(self.resolve(name) is not None for name in wanted) and bool(wanted or self.ever())
 
     def is_there(self, name: str) -> bool:
         """Whether the robot `name` is there or configured."""

@@ -17,11 +17,10 @@ from parley.clock import Clock, WallClock
 from parley.errors import StoreError
 from parley.gate.stop_line import StopLine
 from parley.language.stop_words import has_stop_word
-from parley.messages.chat import ChatFeedback, ChatImage, ChatInput
+from parley.messages.chat import ChatFeedback, ChatImage
 from parley.messages.map import MapView
 from parley.messages.principal import Principal, person
 from parley.messages.status import PlanDecision
-from parley.sentences import sentence
 from parley.transport.base import Transport
 from parley.web.bodies import ChatPost
 from parley.web.chat_state import Composed
@@ -29,8 +28,9 @@ from parley.web.config import Module, WebConfig
 from parley.web.feed_state import Picture
 from parley.web.feeds import Feeds
 from parley.web.keeper import Keeper
-from parley.web.link import Link, Pressed, halts, robots_of
+from parley.web.link import Link
 from parley.web.models import ChatEntry, Favourite, Policy, RobotView, ServerInfo, Snapshot
+from parley.web.outbox import Outbox
 from parley.web.people.store import FILE, PeopleStore
 from parley.web.pictures import kept_picture
 from parley.web.problems import WebProblem
@@ -46,27 +46,6 @@ log = structlog.get_logger(__name__)
 
 RECENT: Final = 300
 """Entries that are read from the store at the start."""
-RESEND_WITHIN_MS: Final = 30_000
-"""A message that a killed server may not have sent is sent by the next one unless it is older than this;
-and for so long is one said again that nobody has read."""
-PRESSED_WITHIN_S: Final = 5.0
-"""Wall time for which a button's press that nobody has taken is sent again: it acts soon, or not at all."""
-HALTED_WITHIN_S: Final = 1.0
-"""Wall time after which people are told that a button may not have halted what it is for."""
-NOT_HALTED: Final = sentence(
-    "A button was pressed, but planning does not answer, so what goes on may not have been halted by it. "
-    "Press Stop if it must not go on."
-)
-NOT_TAKEN: Final = sentence(
-    "A button was pressed, but planning does not answer, so nothing may have been done for it. Look how "
-    "things stand, and press again if it still holds."
-)
-CUT_OFF: Final = sentence(
-    "A button was pressed just before the page was interrupted, so nothing may have been done for it. Look "
-    "how things stand, and press again if it still holds."
-)
-AGAIN_S: Final = 1.0
-"""Wall time between two tries."""
 
 
 class Backend:
@@ -88,6 +67,7 @@ class Backend:
     pusher: Pusher
 
     stopper: Stopper
+    outbox: Outbox
 
     def __init__(
         self,
@@ -109,8 +89,6 @@ class Backend:
         self.picture_listeners: list[Callable[[tuple[str, str], Picture], None]] = []
         self._sending: set[str] = set()
         self._keeping: set[asyncio.Task[None]] = set()
-        self._unread: dict[str, asyncio.Task[None]] = {}
-        """What waits for messages to be read, by entry, and for presses."""
         self._policies: dict[str, str] = {}
         self._policy_by: dict[str, str] = {}
         """Who chose it, by robot, as JSON."""
@@ -175,8 +153,10 @@ class Backend:
         await self.sessions.refresh()
         watch = asyncio.create_task(self.sessions.watch(), name="web people")
         self._stack.push_async_callback(_cancel, watch)
-        self._stack.push_async_callback(self._give_up_reading)
-        await self._settle_unsent()
+        fresh = self.config.fresh_robots
+        self.outbox = Outbox(self.link, self.store, self.state, self.clock, self.stopper, fresh_robots=fresh)
+        self._stack.push_async_callback(self.outbox.close)
+        await self.outbox.settle()
         self.pusher = await enter(
             Pusher(
                 self.store,
@@ -267,7 +247,7 @@ class Backend:
         composed = self._composed(post, by, pictures)
         await self.store.keep([composed.entry], pictures, composed.messages)
         self.state.chat.said(composed)
-        await self._send(composed.entry, composed.messages)
+        await self.outbox.say(composed.entry, composed.messages)
         return composed.entry
 
     async def _say_at_once(self, post: ChatPost, by: Principal) -> ChatEntry:
@@ -283,19 +263,22 @@ class Backend:
             post, pictures = post.model_copy(update={"reply_to": "", "images": ()}), []
         composed = self._composed(post, by, pictures)
         for message in composed.messages:
-            self.link.send(message)
+            self.link.begin(message)
         self.state.chat.said(composed)
-        self._in_background(self._keep_later(composed.entry, pictures))
+        self._in_background(self._keep_later(composed, pictures))
         return composed.entry
 
-    async def _keep_later(self, entry: ChatEntry, pictures: Sequence[KeptPicture]) -> None:
+    async def _keep_later(self, composed: Composed, pictures: Sequence[KeptPicture]) -> None:
+        """Who was held goes on only when the words are read: they are said again like all others."""
+        entry = composed.entry
         try:
-            await self.store.keep([entry], pictures)
+            await self.store.keep([entry], pictures, composed.messages)
         except StoreError as error:
             log.error("message not stored", id=entry.id, problem=str(error))
             text = "I got that, but it cannot be kept: it will be missing here after the next start."
             told = ChatFeedback(message=text, targets=entry.targets, type="error", reply_to=entry.id)
             self.state.chat.on_feedback(told, unix_ms=self.clock.unix_ms())
+        await self.outbox.said(entry, composed.messages)
 
     def _composed(self, post: ChatPost, by: Principal, pictures: Sequence[KeptPicture]) -> Composed:
         return self.state.chat.compose(
@@ -315,104 +298,9 @@ class Backend:
         if known.message != post.text:
             raise WebProblem(409, "Another message has this id.", "Send it under a new one.", path="id")
         for entry, messages in await self.store.unsent(post.id):
-            if entry.id not in self._unread:
-                await self._send(entry, messages)
+            if entry.id not in self.outbox.waiting:
+                await self.outbox.say(entry, messages)
         return known
-
-    async def _send(self, entry: ChatEntry, messages: Sequence[ChatInput]) -> None:
-        """Hand a message to robots. After a kill in between it goes again, under ids that they know."""
-        for message in messages:
-            await self.link.say(message)
-        if not self.link.says_what_it_read:
-            await self.store.mark_sent(entry.id)
-        self._unread[entry.id] = asyncio.create_task(self._until_read(entry, messages), name="web unread")
-
-    async def _until_read(self, entry: ChatEntry, messages: Sequence[ChatInput]) -> None:
-        """Whoever reads what people say may be cut off, or about to be started anew."""
-        try:
-            async with asyncio.timeout(RESEND_WITHIN_MS / 1000):
-                await self.link.until_read([said.id for said in messages], again_s=AGAIN_S)
-        except TimeoutError:
-            if self.link.says_what_it_read:
-                self._tell_unread(entry)
-        await self.store.mark_sent(entry.id)
-        del self._unread[entry.id]
-
-    async def press(self, message: Pressed) -> None:
-        """Keep what a button does and send it until whoever plans has taken it, or tell that it may not have.
-
-        Raises:
-            StoreError: It cannot be kept; then it is not sent either, unless it halts.
-        """
-        message = self.link.number(message)
-        if first := halts(message):  # no disk is waited for
-            self._send_press(message, PRESSED_WITHIN_S)
-        if message.press is not None:
-            try:
-                await self.store.keep_press(message, self.clock.unix_ms())
-            except StoreError as error:
-                if not first:
-                    raise
-                log.error("press not stored", id=message.press.id, problem=str(error))
-        if not first:
-            self._send_press(message, PRESSED_WITHIN_S)
-
-    def _send_press(self, message: Pressed, within_s: float) -> None:
-        self.link.press(message)
-        if message.press is not None:
-            work = self._until_taken(message.press.id, message, within_s)
-            self._unread[message.press.id] = asyncio.create_task(work, name="web press")
-
-    async def _until_taken(self, press: str, message: Pressed, within_s: float) -> None:
-        told = False
-        try:
-            async with asyncio.timeout(within_s):
-                taking = asyncio.create_task(self.link.until_read([press], again_s=AGAIN_S))
-                try:
-                    if halts(message) and not (await asyncio.wait({taking}, timeout=HALTED_WITHIN_S))[0]:
-                        self._tell_untaken(message, NOT_HALTED)
-                        told = True
-                    await taking
-                finally:
-                    taking.cancel()
-        except TimeoutError:
-            if not told:
-                self._tell_untaken(message, NOT_TAKEN)
-        await self.store.drop_press(message)
-        del self._unread[press]
-
-    def _tell_untaken(self, message: Pressed, text: str) -> None:
-        told = ChatFeedback(message=text, targets=robots_of(message), type="error")
-        self.state.chat.on_feedback(told, unix_ms=self.clock.unix_ms())
-        if isinstance(message, PlanDecision):
-            self.state.plans.on_unheard(message)
-
-    async def _give_up_reading(self) -> None:
-        for task in tuple(self._unread.values()):
-            await _cancel(task)
-
-    async def _settle_unsent(self) -> None:
-        """What an earlier run left: sent now if it was said just now to robots that run on, else told of."""
-        now_ms = self.clock.unix_ms()
-        for entry, messages in await self.store.unsent():
-            if not self.config.fresh_robots and now_ms - entry.unix_ms <= RESEND_WITHIN_MS:
-                await self._send(entry, messages)
-                continue
-            self._tell_unread(entry)
-            await self.store.mark_sent(entry.id)
-        for pressed_ms, message in await self.store.presses():
-            left_s = PRESSED_WITHIN_S - (now_ms - pressed_ms) / 1000
-            if not self.config.fresh_robots and 0 < left_s <= PRESSED_WITHIN_S:
-                self._send_press(message, left_s)
-                continue
-            self._tell_untaken(message, CUT_OFF)
-            await self.store.drop_press(message)
-
-    def _tell_unread(self, entry: ChatEntry) -> None:
-        said = f"“{entry.message}”" if entry.message else "your picture"
-        text = f"I was interrupted and may not have got {said}. Say it again if it still holds."
-        told = ChatFeedback(message=text, targets=entry.targets, type="error", reply_to=entry.id)
-        self.state.chat.on_feedback(told, unix_ms=self.clock.unix_ms())
 
     def _check_reply(self, post: ChatPost) -> None:
         question = self.state.chat.entries.get(post.reply_to)
@@ -467,7 +355,7 @@ class Backend:
         await self.store.set("policy", robot, policy)
         await self.store.set("policy_by", robot, by.model_dump_json())
         self._policies[robot], self._policy_by[robot] = policy, by.model_dump_json()
-        await self.press(self._policy_told(robot))
+        await self.outbox.press(self._policy_told(robot))
 
     # -- what comes in ---------------------------------------------------------------------------------
 

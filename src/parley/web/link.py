@@ -130,6 +130,7 @@ class Link:
         self._unread: dict[str, _Unread] = {}
         """Words and presses that were published, by their id."""
         self._planner, (self._page, self._pressed) = "", pressed
+        self._planned = asyncio.Event()
         self._losses = Losses(self._tell_lost)
         self._memory_waits: dict[str, list[asyncio.Future[MemoryEvent]]] = {}
 
@@ -205,18 +206,22 @@ class Link:
 
         `until_read` has to follow.
         """
-        self._overtake(message.targets)
-        self._unread.setdefault(message.id, _Unread(message, message.targets))
         echo: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._echoes[message.id] = echo
         try:
-            self.send(message)
+            self.begin(message)
             async with asyncio.timeout(ECHO_WITHIN_S):
                 await echo
         except TimeoutError:
             log.warning("no echo of a message", id=message.id)
         finally:
             del self._echoes[message.id]
+
+    def begin(self, message: ChatInput) -> None:
+        """Publish an operator's words and wait for nothing; `until_read` has to follow."""
+        self._overtake(message.targets)
+        self._unread.setdefault(message.id, _Unread(message, message.targets))
+        self.send(message)
 
     def number(self, message: Pressed) -> Pressed:
         """What a button does with the number of its press, without one if no planner says what it takes.
@@ -258,6 +263,21 @@ class Link:
         finally:
             for identity in ids:
                 del self._unread[identity]
+
+    async def until_taken(self, message: Pressed, *, again_s: float) -> None:
+        """Publish what a button does until somebody plans and has taken it, whatever comes in between."""
+        await self._planned.wait()
+        numbered = self.number(message)
+        assert numbered.press is not None
+        waiting = self._unread[numbered.press.id] = _Unread(numbered, robots_of(numbered))
+        try:
+            while not waiting.read.is_set():
+                self.send(numbered)
+                with contextlib.suppress(TimeoutError):
+                    async with asyncio.timeout(again_s):
+                        await waiting.read.wait()
+        finally:
+            del self._unread[numbered.press.id]
 
     async def ask(self, service: Service[ChatRequest, ChatResponse], request: BaseModel, kind: type[P]) -> P:
         """Call a service that speaks JSON.
@@ -362,6 +382,7 @@ class Link:
             waited.read.set()
         if taken.run != self._planner:
             self._planner = taken.run
+            self._planned.set()
             self._on_planner()
 
     def _on_stop(self, command: StopCommand) -> None:

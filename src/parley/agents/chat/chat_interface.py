@@ -5,6 +5,7 @@ Stop words and their kin are recognised in code before any language engine is as
 
 from __future__ import annotations
 
+import asyncio
 import uuid
 from collections.abc import Awaitable, Callable, Sequence
 from dataclasses import replace
@@ -28,7 +29,7 @@ from parley.agents.chat.team import TeamTalk
 from parley.agents.planner.asking import SHALL_I, Offered, wish_of
 from parley.agents.planner.orders import no_robot
 from parley.agents.planner.steps import LATCHED
-from parley.agents.presence import Presence, linked_to
+from parley.agents.presence import ACQUAINTED_S, Presence, linked_to
 from parley.agents.questions import SeenIds
 from parley.agents.thinking import PATIENCE_S, Thinking
 from parley.clock import Clock
@@ -116,6 +117,8 @@ class ChatInterface(Node):
         super().__init__(transport)
         self._rules, self._soon = rules, soon
         self._clock = clock
+        self._early: list[ChatInput] | None = []
+        """What waits for the first heartbeats; None: they have come."""
         self._thinking = Thinking(language_timeout_s, patience_s)
         self._presence = Presence(
             clock,
@@ -175,11 +178,24 @@ class ChatInterface(Node):
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input, in_charge=True)
         self.publish(topics.CHAT_READ, ChatRead())
         self.spawn(self._presence.watch(), name="presence")
+        self.spawn(self._get_acquainted(), name="first heartbeats")
+
+    async def _get_acquainted(self) -> None:
+        """Take in what was said to robots before anything was heard of them."""
+        await asyncio.sleep(ACQUAINTED_S)
+        early, self._early = self._early or (), None
+        for said in early:
+            self._on_input(said)
 
     # -- from the wire ---------------------------------------------------------------------------------
 
     def _on_input(self, said: ChatInput) -> None:
         """Hear a message; where a word of stopping is in it, its robots stand while it is read."""
+        if self._early is not None and (self._early or not self._presence.knows_all(said.targets)):
+            self._early.append(said)
+            if said.id:  # the hold of what has none could not be ended
+                self._holds.begin(said, said.targets)
+            return
         if said.id:
             self.publish(topics.CHAT_READ, ChatRead(id=said.id))
         targets = (self._presence.resolve(name) or name for name in said.targets)

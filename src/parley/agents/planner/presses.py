@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
 import uuid
 from typing import Final
 
 from parley.agents.base import Node
 from parley.agents.planner.robot_plans import RobotPlans
+from parley.agents.presence import ACQUAINTED_S
 from parley.agents.questions import SeenIds
 from parley.latest import Latest
 from parley.messages import topics
@@ -33,12 +35,19 @@ class Presses:
         self._node, self._plans = node, plans
         self._run = uuid.uuid4().hex
         self._seen = SeenIds()
+        self._early = True
+        """Robots that are there may not have been heard of yet."""
         self._newest: Latest[tuple[str, str], int] = Latest()
         """The newest press that was heard of each page's server for each robot."""
 
     def open(self) -> None:
         """Tell pages that presses are confirmed here, once they are heard."""
         self._node.publish(topics.PRESS_TAKEN, PressTaken(run=self._run))
+        self._node.spawn(self._get_acquainted(), name="first heartbeats")
+
+    async def _get_acquainted(self) -> None:
+        await asyncio.sleep(ACQUAINTED_S)
+        self._early = False
 
     def counts(self, press: Press | None, robot: str, *, harmless: bool) -> bool:
         """Confirm a press; whether what it is for is to be done now.
@@ -50,6 +59,8 @@ class Presses:
         """
         if press is None:
             return True
+        if self._early and not self._plans.presence.knows_all(robot.split(",")):
+            return False  # it comes again
         self._node.publish(topics.PRESS_TAKEN, PressTaken(run=self._run, id=press.id))
         if not self._seen.is_new(press.id):
             return False

@@ -47,12 +47,12 @@ async def post_mission_command(identity: Identity, post: MissionCommandPost, web
         raise WebProblem(409, "Nothing of that is going on any more.", "Look at it again.")
     if post.command == "approve" or post.command == "reject":
         for decision in _decisions(post.command, parts, post, web):
-            await web.press(decision.model_copy(update={"by": who.by}))
+            await web.outbox.press(decision.model_copy(update={"by": who.by}))
         return Done()
     for part in parts:
         arguments = {"order": part.order} if post.command == "clear" else {}
         command = SystemCommand(command=_COMMANDS[post.command], arguments=arguments)
-        await web.press(ChatAction(system_cmd=(command,), targets=(part.robot,), by=who.by))
+        await web.outbox.press(ChatAction(system_cmd=(command,), targets=(part.robot,), by=who.by))
     return Done()
 
 

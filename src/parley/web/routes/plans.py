@@ -61,7 +61,7 @@ async def post_command(robot: Robot, post: PlanCommandPost, web: Web, who: Who) 
     if post.command in ("skip", "pop") and step:
         arguments["step"] = step
     command = SystemCommand(command=_COMMANDS[post.command], arguments=arguments)
-    await web.press(ChatAction(system_cmd=(command,), targets=(name,), by=who.by))
+    await web.outbox.press(ChatAction(system_cmd=(command,), targets=(name,), by=who.by))
     return Done()
 
 
@@ -81,13 +81,13 @@ async def post_decision(robot: Robot, post: DecisionPost, web: Web, who: Who) ->
     )
     if proposal is None or proposal.robot != name or post.id in web.state.plans.decided:
         if post.decision == "reject":
-            await web.press(decision)  # somebody's yes was quicker: what it has begun is stopped
+            await web.outbox.press(decision)  # somebody's yes was quicker: what it has begun is stopped
         raise WebProblem(409, "This plan is no longer waiting for an answer.", path="id")
     if post.decision == "approve" and post.digest != proposal.digest:
         raise WebProblem(
             409, "This is not the plan that waits for a yes.", "Look at it and decide again.", path="digest"
         )
-    await web.press(decision)
+    await web.outbox.press(decision)
     return Done()
 
 
@@ -109,7 +109,7 @@ async def put_steps(robot: Robot, put: StepsPut, web: Web, who: Who) -> Done:
         raise WebProblem(
             409, "The plan has changed meanwhile.", "Look at it and change it again.", path="revision"
         )
-    await web.press(
+    await web.outbox.press(
         PlanDecision(target=name, decision="edit", steps=put.steps, revision=put.revision, by=who.by)
     )
     return Done()
