@@ -96,7 +96,7 @@ def test_holds_overlap_and_an_emergency_stop_wins() -> None:
     line.hold(id="b", by=KIM)
     line.go_on("a")
     assert ada.halted
-    assert line.held("Ada")
+    assert line.held_by("Ada")
     line.go_on("b")
     assert not ada.halted
     line.hold(["Ada"], id="c", by=KIM)

@@ -304,6 +304,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "map_name": "hall",
         "unix_ms": 1,
         "stop": "51",
+        "holds": ["m1"],
     },
     status.GraphEvent: {
         "actor": "A",

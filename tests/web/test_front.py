@@ -166,7 +166,7 @@ async def test_a_message_with_a_stop_word_holds_before_anybody_reads_it() -> Non
 async def test_a_message_holds_those_too_whom_its_words_call(words: str) -> None:
     async with fronted() as (rig, drive):
         await rig.http.post("/api/chat", json={"id": "m1", "text": words, "targets": ["Bob"]})
-        assert drive.line.held("Ada")
+        assert drive.line.held_by("Ada")
 
 
 async def test_a_message_that_is_sent_again_does_not_hold_a_second_time() -> None:
@@ -175,7 +175,7 @@ async def test_a_message_that_is_sent_again_does_not_hold_a_second_time() -> Non
         await rig.http.post("/api/chat", json=post)
         drive.line.go_on("m1")
         await rig.http.post("/api/chat", json=post)
-        assert not drive.line.held("Ada")
+        assert not drive.line.held_by("Ada")
 
 
 async def test_who_was_signed_out_stops_nobody_and_is_hung_up_on(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -209,7 +209,7 @@ async def test_a_message_with_a_stop_word_gets_through_while_the_conversation_ca
             other.execute("BEGIN EXCLUSIVE")
             post = {"id": "m1", "text": "stop", "targets": ["Ada"]}
             assert (await rig.http.post("/api/chat", json=post)).status_code == 200
-            assert drive.line.held("Ada")
+            assert drive.line.held_by("Ada")
             await rig.heard()
             assert [said.id for said in rig.robots.inputs] == ["m1"]
 

@@ -198,6 +198,7 @@ class ActionEngine(OpenedTogether):
             heartbeat_s=self._heartbeat_s,
             unix_ms=self._clock.unix_ms,
             stop=lambda: self._line.in_force(self.actor),
+            holds=lambda: self._line.held_by(self.actor),
             orders=lambda: self._orders.states(self.runs.all),
             claim=self._claim,
         )

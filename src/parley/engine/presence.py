@@ -47,6 +47,7 @@ class Presence:
         heartbeat_s: Wall time between two unchanged ones.
         unix_ms: Tells what the clock shows.
         stop: Gives the id of the emergency stop in force.
+        holds: Gives those of the holds in force.
         orders: Tells how far each order is.
         claim: Tells what it wants of places that only so many may be in.
     """
@@ -62,12 +63,13 @@ class Presence:
         heartbeat_s: float,
         unix_ms: Callable[[], int] = lambda: 0,
         stop: Callable[[], str] = lambda: "",
+        holds: Callable[[], tuple[str, ...]] = lambda: (),
         orders: Callable[[], Mapping[str, OrderState]] = dict,
         claim: Callable[[], PassageClaim | None] = lambda: None,
     ) -> None:
         self._actor, self._runs, self._catalogue = actor, runs, catalogue
         self._robot, self._publish, self._heartbeat_s = robot, publish, heartbeat_s
-        self._unix_ms, self._stop = unix_ms, stop
+        self._unix_ms, self._stop, self._holds = unix_ms, stop, holds
         self._orders, self._claim = orders, claim
         self._sequence = 0
         self._changed = asyncio.Event()
@@ -122,6 +124,7 @@ class Presence:
                 catalogue=tuple(self._catalogue()),
                 unix_ms=self._unix_ms(),
                 stop=self._stop(),
+                holds=self._holds(),
             )
         )
         self._sequence += 1

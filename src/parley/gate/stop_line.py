@@ -132,9 +132,9 @@ class StopLine:
         """The id of the emergency stop of that robot; empty: none, or one of an earlier process."""
         return self._newest.get(robot, "") if self.latched(robot) else ""
 
-    def held(self, robot: str) -> bool:
-        """Whether it stands still while a message is read."""
-        return any(not names or robot in names for names in tuple(self._holds.values()))
+    def held_by(self, robot: str) -> tuple[str, ...]:
+        """The ids of the holds by which it stands still, while a message is read or until it may go on."""
+        return tuple(id for id, names in tuple(self._holds.items()) if not names or robot in names)
 
     # -- commands -------------------------------------------------------------------------------------------
 
@@ -287,7 +287,7 @@ class StopLine:
         return problems, tuple(name for name in every if name not in since) if since else named
 
     def _stands(self, robot: str) -> bool:
-        return self.latched(robot) or self.held(robot)
+        return self.latched(robot) or bool(self.held_by(robot))
 
     def _meant(self, targets: Iterable[str]) -> tuple[str, ...]:
         """The names as they are known, whatever their capitals; an unknown one stays as it is."""

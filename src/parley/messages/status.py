@@ -144,6 +144,8 @@ class ActorStatus(Payload):
     """What the clock of its machine showed."""
     stop: str = ""
     """Of `stopped`: the id of the emergency stop in force; empty: it was before the engine started."""
+    holds: tuple[str, ...] = ()
+    """The ids of the holds by which its drive stands still: whoever reads messages ends those it begins."""
 
 
 class GraphEvent(Payload):

@@ -162,7 +162,7 @@ class ChatInterface(Node):
     async def open(self) -> None:
         """See `Node.open`."""
         await self.opened.enter_async_context(self._mailboxes)
-        await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._presence.on_status)
+        await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._on_status)
         await self.subscribe(topics.STOP_REPORT, StopReport, self._presence.on_stop_report)
         await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._on_said)
         await self.subscribe(topics.MEMORY_EVENT, MemoryEvent, self._confirmations.on_event)
@@ -186,6 +186,12 @@ class ChatInterface(Node):
         early, self._early = self._early or (), None
         for said in early:
             self._on_input(said)
+
+    def _on_status(self, status: ActorStatus) -> None:
+        self._presence.on_status(status)
+        if self._holds.on_status(status):
+            pause = SystemCommand(command="stop")
+            self.publish(topics.CHAT_ACTION, ChatAction(system_cmd=(pause,), targets=(status.actor,)))
 
     # -- from the wire ---------------------------------------------------------------------------------
 

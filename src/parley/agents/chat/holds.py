@@ -12,7 +12,7 @@ from collections.abc import Callable
 
 from parley.language.stop_words import has_stop_word
 from parley.messages.chat import ChatInput
-from parley.messages.status import PlanUpdate, StopCommand
+from parley.messages.status import ActorStatus, PlanUpdate, StopCommand
 
 __all__ = ["Holds"]
 
@@ -26,8 +26,9 @@ class Holds:
 
     def __init__(self, send: Callable[[StopCommand], None]) -> None:
         self._send = send
-        self._kept: dict[str, tuple[str, bool]] = {}
-        """By robot: the id of its hold, and whether its plan was seen to be held since."""
+        self._kept: dict[str, tuple[tuple[str, ...], bool]] = {}
+        """By robot: the ids of its holds, and whether its plan was seen to be held since."""
+        self._met: set[str] = set()
         self._asked: dict[str, StopCommand] = {}
         """By open question: the hold until it is answered."""
 
@@ -61,25 +62,39 @@ class Holds:
 
     def keep(self, target: str, said: ChatInput) -> None:
         """It was a call to stop: the robot stands until somebody lets it go on."""
-        before, _ = self._kept.get(target, ("", False))
+        before, _ = self._kept.get(target, ((), False))
         identity = f"{said.id or uuid.uuid4().hex}/{target}"
-        self._kept[target] = (identity, False)
+        self._kept[target] = ((identity,), False)
         self._send(
             StopCommand(command="hold", targets=(target,), id=identity, by=said.who, words=said.message)
         )
-        if before != identity:  # only now: between two holds it would drive
-            self.end(before)
+        for other in before:  # only now: between two holds it would drive
+            if other != identity:
+                self.end(other)
+
+    def on_status(self, status: ActorStatus) -> bool:
+        """Take over what holds a robot when it is met: whoever held it may be gone, and would never end it.
+
+        Returns:
+            Whether it carries something out by that, which has to be paused: else nobody could let it go on.
+        """
+        if status.actor in self._met:
+            return False
+        self._met.add(status.actor)
+        kept, seen = self._kept.get(status.actor, ((), False))
+        left = tuple(one for one in status.holds if one not in kept and one not in self._asked)
+        if left:
+            self._kept[status.actor] = ((*kept, *left), seen)
+        return bool(left) and status.state == "running"
 
     def on_update(self, update: PlanUpdate) -> None:
         """A plan changed: nobody holds it any more, or there is none."""
-        identity, seen = self._kept.get(update.target, ("", False))
-        if not identity:
+        ids, seen = self._kept.get(update.target, ((), False))
+        if not ids:
             return
-        if update.held_by is not None:
-            self._kept[update.target] = (identity, True)
+        if update.held_by is not None or update.state == "paused":
+            self._kept[update.target] = (ids, True)
         elif seen or update.state in ("idle", "awaiting_approval"):
-            self._release(update.target)
-
-    def _release(self, target: str) -> None:
-        identity, _ = self._kept.pop(target, ("", False))
-        self.end(identity)
+            del self._kept[update.target]
+            for identity in ids:
+                self.end(identity)
