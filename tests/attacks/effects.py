@@ -66,7 +66,7 @@ class Watch:
         watch.updates, watch.reports = len(seen.updates), len(seen.stop_reports)
         watch.failures = house.system.transport.handler_failures  # type: ignore[attr-defined]
         watch.memories = {(m.name, m.scope): m for m in await house.memories()}
-        watch.paused = {name for name, state in seen.graph_states.items() if state == "PAUSED"}
+        watch.paused = {name for (_, name), state in seen.graph_states.items() if state == "PAUSED"}
         watch.waiting = {p.target: p for p in seen.proposals}
         for robot in ROBOTS:
             pose = house.system.robots[robot].pose()

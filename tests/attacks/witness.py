@@ -92,10 +92,10 @@ class Witness(Observer):
     def at_rest(self, robot: str) -> bool:
         """Whether nothing of a robot is under way, waits or is held back."""
         status = self.statuses.get(robot)
-        going = {name for name, state in self.graph_states.items() if state in ("RUNNING", "PAUSED")}
+        going = {actor for (actor, _), state in self.graph_states.items() if state in ("RUNNING", "PAUSED")}
         return (
             self.state(robot) == "idle"
-            and not any(name.startswith(f"{robot}_") for name in going)
+            and robot not in going
             and status is not None
             and status.state != "stopped"
             and self.questions.newest(robot) is None

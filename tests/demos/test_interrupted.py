@@ -157,7 +157,9 @@ async def test_a_graph_with_branches_goes_on_when_told_and_asks_again_only_what_
         assert reply.message == "I am going on."
         assert (await home.question()).message == "Which way?"
         home.observer.say("that way", home.robot, answer=True)
-        await home.observer.until(lambda: home.observer.graph_states.get("forked") == "FINISHED")
+        await home.observer.until(
+            lambda: home.observer.graph_states.get((home.robot, "forked")) == "FINISHED"
+        )
         assert began == ["AskOperator_1", "GetCoordinates_2"], (
             "the place that was found is not looked for again"
         )

@@ -9,6 +9,9 @@ export const stands = (part: MissionPart) => STANDING.includes(part.state);
 export const goesOn = (mission: MissionInfo) => mission.parts.some((part) => !isOver(part));
 export const isOf = (mission: MissionInfo, robots: readonly string[]) => mission.parts.some((part) => robots.includes(part.robot));
 
+/** Where all parts of a mission are to be had as one graph, for engineers. */
+export const missionFile = (id: string) => `/api/missions/${encodeURIComponent(id)}/graph`;
+
 /** What of a mission waits for a yes: by proposal what it is now. */
 export function waiting(mission: MissionInfo, proposals: Readonly<Record<string, ProposalView>>): Readonly<Record<string, string>> {
   const known = mission.parts.flatMap((part) => proposals[part.proposal] ?? []);

@@ -172,6 +172,8 @@ export const missionPart = (part: Partial<MissionPart> & { robot: string }): Mis
   count: 1,
   left: [],
   proposal: '',
+  steps: [],
+  instead_of: '',
   ...part,
 });
 

@@ -2,7 +2,7 @@ import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { commandMission, type MissionCommand } from '@/live/api';
-import { goesOn, isOver, stands, waiting } from '@/live/missions';
+import { goesOn, isOver, missionFile, stands, waiting } from '@/live/missions';
 import { useWorld } from '@/live/store';
 import type { MissionInfo, MissionPart } from '@/live/types';
 import { attempt } from '@/state/do';
@@ -40,11 +40,16 @@ export function MissionCard({ mission, isFolded = false }: Props) {
       {mission.closing && <p>{mission.closing}</p>}
       <Controls mission={mission} />
       {open && (
-        <ul className={css.parts}>
-          {mission.parts.map((part) => (
-            <Part key={part.order} mission={mission} part={part} />
-          ))}
-        </ul>
+        <>
+          <ul className={css.parts}>
+            {mission.parts.map((part) => (
+              <Part key={part.order} mission={mission} part={part} />
+            ))}
+          </ul>
+          <a className={css.file} href={missionFile(mission.id)} download aria-label={t('file', { words: mission.words })}>
+            <Icon name="down" size={16} /> {t('fileShort')}
+          </a>
+        </>
       )}
     </article>
   );

@@ -26,6 +26,7 @@ from parley.umrf.check import doubts, reasons
 from parley.umrf.discovery import ActionFolder
 from parley.umrf.io import read_graph, write_graph
 from parley.umrf.model import Graph, GraphState, NodeState, Response, Result
+from parley.umrf.remote import actors_of
 from parley.umrf.show import show as show_graph
 
 __all__ = ["app"]
@@ -155,11 +156,13 @@ def _write(text: str, out: Path | None) -> None:
 def run(
     file: Annotated[Path, typer.Argument(help="A graph file (JSON).")],
     demo: Annotated[str, typer.Option(help=f"In whose world: {', '.join(DEMOS)}.")] = "nursing-home",
-    robot: Annotated[str, typer.Option(help="Which robot; default: the world's first.")] = "",
+    robot: Annotated[
+        str, typer.Option(help="Which robot; default: those that the graph names, or the world's first.")
+    ] = "",
     json: Annotated[bool, typer.Option("--json", help="One JSON object per event.")] = False,
     timeout: Annotated[float, typer.Option(help="Seconds of wall time it may take.")] = 600.0,
 ) -> None:
-    """Run a graph on a simulated robot, at full speed, and follow it to its end."""
+    """Run a graph on simulated robots, at full speed, and follow it to its end."""
     quiet_logs()
     text = read_text(file)
     try:
@@ -176,14 +179,17 @@ async def _run(text: str, graph: Graph, demo: str, robot: str, as_json: bool, ti
         load_demo(demo).system(SystemConfig(speed=None)) as system,
         Observer(system.transport, system.clock, emit_json if as_json else _tell) as observer,
     ):
-        target = robot or system.robot_names[0]
-        if target not in system.robot_names:
+        targets = {robot} if robot else actors_of(graph) or {system.robot_names[0]}
+        for target in sorted(targets - {*system.robot_names}):
             raise ConfigError(f"there is no robot {target!r}; there are: {', '.join(system.robot_names)}")
-        await observer.until(lambda: target in observer.robots, timeout_s=START_WITHIN_S)
-        observer.send(topics.GRAPH_START, UmrfGraphStart(umrf_graph_json=text, targets=(target,)))
+        await observer.until(lambda: targets <= observer.robots, timeout_s=START_WITHIN_S)
+        observer.send(topics.GRAPH_START, UmrfGraphStart(umrf_graph_json=text, targets=tuple(targets)))
+
+        def states() -> list[str]:
+            return [observer.graph_states.get((target, name), "") for target in sorted(targets)]
 
         def over() -> bool:
-            return bool(observer.refusals) or observer.graph_states.get(name) in _ENDED
+            return bool(observer.refusals) or {*states()} <= _ENDED
 
         try:
             await observer.until(over, timeout_s=timeout_s)
@@ -193,9 +199,8 @@ async def _run(text: str, graph: Graph, demo: str, robot: str, as_json: bool, ti
             problems = [str(problem.message) for problem in observer.refusals[0].problems]
             return fail(f"{name} was refused: {'; '.join(problems)}", code=1)
         failed = {event.node for event in observer.events if event.state == NodeState.ERROR.value}
-        finished = observer.graph_states[name] == GraphState.FINISHED.value
-        if not finished:
-            return fail(f"{name} did not come to its exit: it is {observer.graph_states[name]}", code=1)
+        if open_ones := {*states()} - {GraphState.FINISHED.value}:
+            return fail(f"{name} did not come to its exit: it is {' and '.join(sorted(open_ones))}", code=1)
         return 0 if failed <= _expected_failures(graph) else 1
 
 

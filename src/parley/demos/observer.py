@@ -55,7 +55,7 @@ class Observer(Node):
         """Everything that was refused."""
         self.events: list[GraphEvent] = []
         """Every transition of every graph, in order."""
-        self.graph_states: dict[str, str] = {}
+        self.graph_states: dict[tuple[str, str], str] = {}
         """The newest state of each graph."""
         self.plans: dict[str, PlanUpdate] = {}
         """The newest plan of each robot."""
@@ -159,7 +159,7 @@ class Observer(Node):
             await self._note("progress", robot=event.actor, node=event.node, text=event.progress_text)
             return
         if event.kind == "graph":
-            self.graph_states[event.graph_name] = event.state
+            self.graph_states[event.actor, event.graph_name] = event.state
         outputs = {name: item.value for name, item in event.outputs.items() if item.has_data}
         await self._note(
             "transition",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final, Literal
 
 from parley.messages.base import Payload
+from parley.messages.chat import ActionCall
 from parley.messages.plain import LineText, ShownText
 from parley.messages.principal import Principal
 
@@ -48,6 +49,10 @@ class MissionPart(Payload):
     """Of a part that is over: what was not done."""
     proposal: str = ""
     """`id` of the proposal that waits for a yes."""
+    steps: tuple[ActionCall, ...] = ()
+    """What it does, as it was ordered; an edit before the yes changes it."""
+    instead_of: str = ""
+    """The robot from which it takes over what that had left."""
 
 
 class MissionInfo(Payload):

@@ -133,7 +133,8 @@ class MissionBook:
             for part in mission.parts:
                 if part.info.robot == robot and part.info.state not in OVER:
                     part.given_to = ", ".join(other.robot for other in others)
-                    mission.parts += [Part(other) for other in others]
+                    new = [other.model_copy(update={"instead_of": robot}) for other in others]
+                    mission.parts += [Part(other) for other in new]
                     return True
         return False
 
@@ -171,7 +172,8 @@ class MissionBook:
         """Steps of a part wait for a yes."""
         for part in self._of(proposal.order):
             if proposal.target == part.info.robot and not part.seen:
-                part.set("asked", proposal=proposal.id, count=len(proposal.lines))
+                told = {"proposal": proposal.id, "count": len(proposal.lines), "steps": proposal.steps}
+                part.set("asked", **told)
 
     def on_update(self, update: PlanUpdate) -> None:
         """The plan of a robot changed."""

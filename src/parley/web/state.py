@@ -104,7 +104,14 @@ class WebState:
     def on_missions(self, told: MissionList) -> None:
         """What has become of orders to several robots."""
         self.missions = told.missions
-        self.log.add(MissionsChange(seq=0, missions=told.missions))
+        self.log.add(MissionsChange(seq=0, missions=self._shown_missions))
+
+    @property
+    def _shown_missions(self) -> tuple[MissionInfo, ...]:
+        """Without what only programs read, as all of it goes to every page at each change."""
+        return tuple(one.model_copy(update={"parts": tuple(
+            part.model_copy(update={"steps": ()}) for part in one.parts
+        )}) for one in self.missions)  # fmt: skip
 
     def on_memory(self, event: MemoryEvent) -> None:
         """Something was remembered or forgotten."""
@@ -153,7 +160,7 @@ class WebState:
             incidents=tuple(self.incidents.values()),
             views=tuple(self.views.values()),
             favourites=self.favourites,
-            missions=self.missions,
+            missions=self._shown_missions,
         )
 
     def _on_entry(self, entry: ChatEntry) -> None:

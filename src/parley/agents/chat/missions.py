@@ -20,8 +20,8 @@ from parley.gate.cards import labels_of, lines_of
 from parley.gate.orders import Heard, admit
 from parley.latest import Latest
 from parley.messages import topics
-from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
-from parley.messages.status import PlanDecision, PlanRuling, PlanUpdate
+from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, SystemCommand
+from parley.messages.status import ActionInfo, PlanDecision, PlanRuling, PlanUpdate
 from parley.messages.team import MissionInfo, MissionPart
 from parley.sentences import Sentence, sentence, together
 
@@ -178,6 +178,7 @@ class Missions:
                 lines=tuple(self._node.spoken(line) for line in self._lines(share)),
                 why=self._node.spoken(share.why),
                 after=share.after,
+                steps=tuple(self._calls(share)),
             )
             for share in mission.shares
         )
@@ -195,10 +196,16 @@ class Missions:
 
     def _lines(self, share: Share) -> Sequence[Sentence]:
         """What a part is, as people read it."""
-        status = self._presence.get(share.robot)
-        catalogue = status.catalogue if status is not None else ()
-        calls = complete_calls(share.calls, catalogue)
+        calls, catalogue = self._calls(share), self._catalogue(share.robot)
         return lines_of(calls, labels_of(calls, catalogue, self._known.objects(share.robot)), catalogue)
+
+    def _calls(self, share: Share) -> list[ActionCall]:
+        """What a part is, as its robot gets it."""
+        return complete_calls(share.calls, self._catalogue(share.robot))
+
+    def _catalogue(self, robot: str) -> Sequence[ActionInfo]:
+        status = self._presence.get(robot)
+        return status.catalogue if status is not None else ()
 
     def _relieve(self, said: ChatInput, mission: Mission, rulings: Mapping[str, PlanRuling]) -> None:
         """Give up what others take over: now, or once their yes is there."""

@@ -5,11 +5,15 @@ from __future__ import annotations
 from typing import Annotated, Final, Literal
 
 from fastapi import APIRouter, Path
+from starlette.responses import Response
 
+from parley.agents.planner.mission_graph import mission_graph
 from parley.gate.table import Effect
 from parley.messages.chat import ChatAction, CommandName, SystemCommand
 from parley.messages.status import PlanDecision
 from parley.messages.team import OVER, MissionInfo, MissionPart
+from parley.umrf.io import write_graph
+from parley.web.backend import Backend
 from parley.web.bodies import Done, MissionCommandPost
 from parley.web.problems import WebProblem
 from parley.web.routes.access import Web, Who, may, module
@@ -36,11 +40,28 @@ async def get_missions(web: Web) -> list[MissionInfo]:
     return list(web.state.missions)
 
 
+@router.get("/{identity}/graph", response_class=Response, dependencies=[may(Effect.SEE)])
+async def get_mission_graph(identity: Identity, web: Web) -> Response:
+    """All of it, as it was ordered, as one UMRF graph of several actors: a file for other programs."""
+    mission = _named(identity, web)
+    if mission is None:
+        raise WebProblem(404, "Nothing of that is going on any more.", "Look at it again.")
+    return Response(
+        write_graph(mission_graph(mission)),
+        media_type="application/json",
+        headers={"Content-Disposition": f'attachment; filename="mission-{mission.id}.umrf.json"'},
+    )
+
+
+def _named(identity: str, web: Backend) -> MissionInfo | None:
+    return next((one for one in web.state.missions if one.id == identity), None)
+
+
 @router.post("/{identity}/command", dependencies=[may(*_EFFECTS.values())])
 async def post_mission_command(identity: Identity, post: MissionCommandPost, web: Web, who: Who) -> Done:
     """Say yes or no to all parts at once; pause, go on with or cancel all of it, or one robot's part."""
     who.need(_EFFECTS[post.command])
-    mission = next((one for one in web.state.missions if one.id == identity), None)
+    mission = _named(identity, web)
     parts = mission.parts if mission is not None else ()
     parts = tuple(part for part in parts if post.robot in ("", part.robot) and part.state not in OVER)
     if not parts:
