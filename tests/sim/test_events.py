@@ -54,6 +54,17 @@ def test_it_happens_when_a_robot_comes_near_and_never_twice() -> None:
     assert events.due(4.0, {"A": Pose2D(4.0, 2.0)}, lambda _: crate) == []
 
 
+def test_who_only_passes_does_not_count_where_a_robot_has_to_stand() -> None:
+    near = {"thing": "crate_1", "within_m": 2, "stands_s": 5}
+    (event,) = world({"name": "e", "near": near, "change": ADDED}).events
+    events, crate = Events([event]), Pose2D(5.2, 2.0)
+    for second in range(20):
+        assert events.due(float(second), {"A": Pose2D(3.5 + second / 10, 2.0)}, lambda _: crate) == []
+    here = {"A": Pose2D(5.4, 2.0)}
+    times = [second for second in range(20, 30) if events.due(float(second), here, lambda _: crate)]
+    assert times == [24]
+
+
 def test_a_range_of_times_is_drawn_by_the_seed() -> None:
     (event,) = world({"name": "e", "at_s": [10, 60], "change": ADDED}).events
     times = []

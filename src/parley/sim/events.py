@@ -28,6 +28,7 @@ __all__ = ["Events", "WorldEvent"]
 
 Seconds = Annotated[float, Field(ge=0, le=1e6)]
 Span = Seconds | tuple[Seconds, Seconds]
+_STILL_M = 0.05
 
 
 class Near(Entry):
@@ -38,6 +39,8 @@ class Near(Entry):
     """From the robot's middle to the thing's frame."""
     robot: str = ""
     """Which one; empty: any."""
+    stands_s: float = Field(default=0, ge=0)
+    """How long it has to stand there; 0: whoever passes is near, too."""
 
 
 class WorldEvent(Entry):
@@ -70,6 +73,10 @@ class Events:
     _due_s: dict[str, float] = field(default_factory=dict)
     """When those happen whose time is known."""
     _done: set[str] = field(default_factory=set)
+    _stood: dict[str, tuple[Pose2D, float]] = field(default_factory=dict)
+    """By robot where it stands, and since when."""
+    _soon: bool = False
+    """Whether a robot only has to stand a while longer."""
 
     def __post_init__(self) -> None:
         """Draw the times that are known from the start."""
@@ -80,7 +87,7 @@ class Events:
     @property
     def timed(self) -> bool:
         """Whether something happens as soon as enough time has passed."""
-        return any(name not in self._done for name in self._due_s)
+        return self._soon or any(name not in self._done for name in self._due_s)
 
     def due(
         self, now_s: float, robots: Mapping[str, Pose2D], place_of: Callable[[str], Pose2D | None]
@@ -93,10 +100,14 @@ class Events:
             place_of: Where a thing is; None: it is not there.
         """
         found: list[WorldEvent] = []
+        self._soon = False
+        for robot, pose in robots.items():
+            if robot not in self._stood or pose.distance_to(self._stood[robot][0]) > _STILL_M:
+                self._stood[robot] = (pose, now_s)
         for event in self.events:
             if event.name in self._done:
                 continue
-            if event.name not in self._due_s and self._is_met(event, robots, place_of):
+            if event.name not in self._due_s and self._is_met(event, now_s, robots, place_of):
                 self._due_s[event.name] = now_s + self._drawn(event, event.delay_s)
             if self._due_s.get(event.name, math.inf) <= now_s + 1e-9:
                 self._done.add(event.name)
@@ -104,7 +115,11 @@ class Events:
         return found
 
     def _is_met(
-        self, event: WorldEvent, robots: Mapping[str, Pose2D], place_of: Callable[[str], Pose2D | None]
+        self,
+        event: WorldEvent,
+        now_s: float,
+        robots: Mapping[str, Pose2D],
+        place_of: Callable[[str], Pose2D | None],
     ) -> bool:
         if event.after is not None:
             return event.after in self._done
@@ -112,11 +127,14 @@ class Events:
         if event.near is None or place is None:
             return False
         near = event.near
-        return any(
-            pose.distance_to(place) <= near.within_m
+        there = [
+            now_s - self._stood[name][1]
             for name, pose in robots.items()
-            if near.robot in ("", name)
-        )
+            if near.robot in ("", name) and pose.distance_to(place) <= near.within_m
+        ]
+        met = any(stood_s >= near.stands_s for stood_s in there)
+        self._soon = self._soon or (bool(there) and not met)
+        return met
 
     def _drawn(self, event: WorldEvent, span: Span) -> float:
         """A time of a range, the same for the same seed."""
