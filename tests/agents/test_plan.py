@@ -286,6 +286,15 @@ def test_leaving_out_a_failed_step_drops_what_depends_on_it(plan: TargetPlan, en
     assert [node.name for node in modify.graph.nodes] == ["Look"]
 
 
+def test_going_on_after_an_alert_leaves_nothing_out(plan: TargetPlan, engine: Engine) -> None:
+    engine.take(list(plan.append([look(), look("door")])))
+    engine.fail(FailureCode.ATTENTION)
+    (modify,) = plan.correct([])
+    assert isinstance(modify, ModifyGraph)
+    assert modify.continue_from == "Look_1"
+    assert states(plan) == ["finished", "queued"]
+
+
 @pytest.mark.spec("P7", "P15")
 def test_skip_ends_the_running_step_and_goes_on_with_the_next(plan: TargetPlan, engine: Engine) -> None:
     engine.take(list(plan.append([look(), look("door")])))

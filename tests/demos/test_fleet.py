@@ -120,7 +120,7 @@ async def test_who_calls_the_mission_off_drops_all_its_parts_and_nothing_else() 
         await told(home, "Check all three areas, split between you", *ROBOTS)
         await home.say("cancel the mission", "Spot")
         await home.observer.until(
-            lambda: any("not all of it is done" in said.message for said in home.observer.said),
+            lambda: any("has ended. " in said.message for said in home.observer.said),
             timeout_s=PATIENCE_S,
         )
         open_yet = {

@@ -63,8 +63,16 @@ def test_what_was_left_out_dropped_or_refused_is_named_when_it_ends() -> None:
     assert told.states == ["undone", "refused"]
     (text,) = told.closed
     assert text.startswith("“see all” has ended, and not all of it is done.")
-    assert "Ada has not done: a door, a box." in text
+    assert "Ada left out: a door, a box." in text
     assert "Kim had to leave its part: see Kim." in text
+
+
+def test_who_leaves_something_out_hears_what_and_no_complaint() -> None:
+    told = Follower()
+    told.plan("Ada", *ended("Ada", ["a door"]), state="idle")
+    told.plan("Kim", step("Kim", "a desk"))
+    told.plan("Kim", step("Kim", "a desk", "stopped"), state="idle")
+    assert told.closed == ["“see all” has ended. Kim left out: a desk."]
 
 
 def test_what_took_the_place_of_a_failed_step_counts_for_it() -> None:

@@ -219,16 +219,21 @@ class MissionBook:
 
 
 def closing(words: str, parts: Sequence[MissionPart]) -> Sentence:
-    """How a mission ended: what of it was not done is named."""
+    """How a mission ended: what of it was not done is named.
+
+    What was begun is left out only because somebody said so; what was refused, nobody wanted so.
+    """
     missed = [part for part in parts if part.state in ("undone", "refused")]
     if not missed:
         return sentence("All of “{words}” is done.", words=words)
     told: Mapping[PartState, str] = {
-        "undone": "{robot} has not done: {steps}.",
+        "undone": "{robot} left out: {steps}.",
         "refused": "{robot} had to leave its part: {steps}.",
     }
+    refused = any(part.state == "refused" for part in missed)
+    ended = "“{words}” has ended, and not all of it is done." if refused else "“{words}” has ended."
     return together(
-        sentence("“{words}” has ended, and not all of it is done.", words=words),
+        sentence(ended, words=words),
         *(sentence(told[part.state], robot=part.robot, steps=listed(part.left)) for part in missed),
     )
 

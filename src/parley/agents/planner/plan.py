@@ -260,9 +260,17 @@ class TargetPlan(PlanState):
         if failed is None:
             self.add(calls)
             return self._sync.push()
-        self._put_for(failed, self.correction(calls))
+        if failed.alerted and not calls and not self._lives_on(failed):
+            failed.state = "finished"
+        else:
+            self._put_for(failed, self.correction(calls))
         self.tidy()
         return self._sync.push()
+
+    def _lives_on(self, step: Step) -> bool:
+        """Whether another step needs what a step gives, or to know how it ended."""
+        given = {*step.call.output_parameters}
+        return any((s.when is not None and s.when.step is step) or s.fed & given for s in self.pending)
 
     def _put_for(self, failed: Step, calls: Sequence[ActionCall]) -> None:
         """Put `calls` in the failed step's place; what ran beside it is done again beside the last."""

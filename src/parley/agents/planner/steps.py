@@ -73,6 +73,8 @@ class Step:
     """How it ended, if the engine said so."""
     stopped: bool = False
     """The engine said that it was stopped before its end."""
+    alerted: bool = False
+    """It failed as it saw what people have to know: who goes on from there leaves nothing out."""
     upset: bool = False
     """A step beside it failed, which stops this one: what it did does not count unless it was done."""
     id: str = field(default_factory=lambda: uuid.uuid4().hex[:12])
@@ -95,7 +97,7 @@ class Step:
     def again(self) -> None:
         """Put it back among those that have not begun."""
         self.instance_id, self.state, self.result = -1, "queued", None
-        self.stopped = self.upset = self.ending = False
+        self.stopped = self.upset = self.ending = self.alerted = False
         self.outputs.clear()
 
 

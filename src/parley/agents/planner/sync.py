@@ -161,7 +161,7 @@ class Sync:
 
     def fail(self, step: Step, report: FailureReport) -> list[Effect]:
         """A step failed: hold the plan and report it."""
-        step.state = "failed"
+        step.state, step.alerted = "failed", report.code is FailureCode.ATTENTION
         self._plan.held = True
         self.upset(step)
         others = pending_calls(self._plan.update(), failed=False)

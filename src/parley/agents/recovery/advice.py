@@ -14,6 +14,7 @@ from parley.agents.thinking import Thinking
 from parley.errors import FailureCode, LanguageError
 from parley.gate.orders import Heard, admit_repair, engine, is_chosen
 from parley.language.base import ErrorSituation, Language
+from parley.language.control import control_of
 from parley.memory.client import recall
 from parley.messages.chat import ChatAction, ChatImage, ChatInput
 from parley.messages.failure import ErrorHandlingMessage
@@ -99,9 +100,18 @@ class Advice:
         )
         order = admit_repair(resolution.model_copy(update={"targets": (target,)}), heard)
         choices = repair.question.choices if repair.question is not None else ()
-        if answer is not None and is_chosen(repair.failure.action_called, resolution, words, choices):
+        if answer is None:
+            return order
+        chosen = is_chosen(repair.failure.action_called, resolution, words, choices)
+        if chosen or self._goes_on(repair, resolution, words):
             return order.model_copy(update={"by": answer.who, "needs_yes": ""})
         return order
+
+    def _goes_on(self, repair: Repair, resolution: ChatAction, words: str) -> bool:
+        """Whether a person has seen what was found and says, read by code, to go on with what is agreed."""
+        more = resolution.queue or resolution.system_cmd or resolution.afterwards
+        seen = repair.failure.code is FailureCode.ATTENTION
+        return seen and not more and control_of(words, self._presence.names()) == "start"
 
 
 def plain_question(failure: ErrorHandlingMessage) -> ChatAction:
