@@ -28,6 +28,7 @@ from parley.language.dialogue.changes import (
     texts_of,
     visits,
 )
+from parley.language.dialogue.choosing import choice_of
 from parley.language.dialogue.emergency import NO_ALARM, emergency, is_emergency
 from parley.language.dialogue.facts import (
     forgotten,
@@ -44,7 +45,7 @@ from parley.language.dialogue.mentions import Named, named
 from parley.language.dialogue.places import in_room, rooms
 from parley.language.dialogue.questions import plain, question_of
 from parley.language.dialogue.rearranging import rearranged
-from parley.language.dialogue.replies import chosen, is_thinking, names_deed
+from parley.language.dialogue.replies import is_thinking
 from parley.language.dialogue.speaker import Again, answered_place, told_place
 from parley.messages.plain import in_words
 from parley.umrf.kinds import words_of_name
@@ -92,7 +93,7 @@ def beforehand(
         return said
     if is_emergency(situation) and (agreed := _agreed(situation, reading, again)) is not None:
         return afterwards(agreed, situation, reading, tokens, lexicon)
-    chose = answered_place(situation, lexicon, again) or _chosen(situation, tokens, again)
+    chose = answered_place(situation, lexicon, again) or choice_of(situation, tokens, again)
     if chose is not None:
         return chose
     meant = _about_what_was_said(situation, reading, tokens, lexicon, again)
@@ -103,31 +104,6 @@ def beforehand(
         return here
     moved = moved_fact(situation, reading, tokens, lexicon, told_in)
     return Remember((moved,)) if moved is not None else None
-
-
-def _chosen(situation: Situation, tokens: Sequence[Token], again: Again) -> Decision | None:
-    """The order that was asked about, with the one of several things that is meant."""
-    asked = situation.dialogue.asked
-    words = [token.low for token in tokens if token.is_word]
-    if asked is None or len(words) > _ANSWER or situation.message.rstrip().endswith("?"):
-        return None
-    also = {item.description: item.aliases for item in situation.objects}
-    choice = chosen(words, asked.choices, also)
-    if choice is None or names_deed(words) or _orders(words, choice, asked.choices):
-        return None
-    made = again(asked.words, [name for name in asked.choices if name != choice])
-    return made if isinstance(made, Do | Edit) or (isinstance(made, Ask) and made.offer) else None
-
-
-def _orders(words: Sequence[str], choice: str, choices: Sequence[str]) -> bool:
-    """Whether a name is said with what comes first or later: "first the workshop" answers no "which one?"."""
-    order = _ORDER - set(choice.lower().split())
-    words = words[:-1] if words[-1] == "then" else words  # "the workshop then"
-    rest = [word for word in words if word not in order]
-    return len(rest) < len(words) and chosen(rest, choices) is not None
-
-
-_ORDER: Final = frozenset({"first", "before", "then", "afterwards", "later", "also", "next"})
 
 
 def _agreed(situation: Situation, reading: Reading, again: Again) -> Decision | None:
