@@ -35,6 +35,7 @@ def deed(label: str, **more: object) -> Deed:
 LOOKED = deed(
     "Look: “crate”", effects=("looks",), told=("I can see the crate.",), seen=("crate", "rope", "gate")
 )
+AREA = replace(LOOKED, label="Look: “Area B”")
 RUNS = (PlanStep(action=ActionCall(name="drive_to"), label="Go to “gate”", state="running"),)
 HELD = (RUNS[0].model_copy(update={"state": "paused"}),)
 GIVEN_UP = deed("Go to “gate”", ending="stopped")
@@ -86,6 +87,9 @@ def test_what_is_about_the_world_is_left_to_others(sentence: str) -> None:
             "crate"),
         ("what did you see?", Dialogue(deeds=(LOOKED,)), "I can see the crate"),
         ("what did you see?", Dialogue(), "not looked"),
+        ("what did you see at the crate?", Dialogue(deeds=(LOOKED,)), "I can see the crate"),
+        ("did you find anything strange in area A?", Dialogue(deeds=(AREA,)), "not looked there"),
+        ("what have you found in Area B?", Dialogue(deeds=(AREA,)), "I can see"),
         ("is there a rope in there as well?", Dialogue(deeds=(LOOKED,)), "Yes"),
         ("is there a cat in there?", Dialogue(deeds=(LOOKED,)), "did not see"),
         ("what else is in it?", Dialogue(deeds=(LOOKED,)), "I also saw rope."),

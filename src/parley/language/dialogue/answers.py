@@ -209,7 +209,9 @@ def _room(label: str, named: dict[str, MapObject]) -> str:
 
 
 def _stems(text: str) -> set[str]:
-    return {stem(word) for word in re.findall(r"[^\W_]+", text.lower())} - _SMALL
+    """Words of content; in "area A" the letter is one, too."""
+    letter = {"a"} if re.search(r"\w A\b|\w [Aa]\W*$", text) else set()
+    return {stem(word) for word in re.findall(r"[^\W_]+", text.lower())} - (_SMALL - letter)
 
 
 _SMALL: Final = frozenset(
@@ -303,7 +305,9 @@ def _looks(situation: Situation) -> list[Deed]:
 
 
 def _seen(situation: Situation, about: str) -> str:
-    looks = _looks(situation)
+    looks = [deed for deed in _looks(situation) if _stems(about) <= _stems(deed.label)]
+    if about and not looks:
+        return "I have not looked there with my camera yet."
     here = f"I am {whereabouts(situation.objects, situation.robot_pose)}."
     if not looks:
         return f"I have not looked at anything with my camera yet, so I have seen nothing to tell. {here}"
