@@ -80,6 +80,8 @@ async def test_what_is_not_certain_is_asked_and_nothing_begins() -> None:
             "go to the pump and the gate, split between you",
             "each of you: go to the pump and the gate",
         )
+        told_off = await told(home, "everybody but Spot go to the pump and the gate", *ROBOTS)
+        assert told_off.choices == ("each of you but Spot: go to the pump and the gate",)
         which = await home.say("both of you go to the pump", "Leo")
         assert "Which of us do you mean?" in which.message
         for text in ("split the areas between you", "let Leo do that", "one of you go to the moon"):

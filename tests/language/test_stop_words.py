@@ -77,6 +77,8 @@ def test_a_word_of_waiting_may_only_open_a_correction(text: str, moves: bool, on
         ("careful, cart 2!", ("Cart 2",)),
         ("stop, that is Ada's box", ()),
         ("stop", ()),
+        ("wait for Ada", ()),
+        ("wait for Ada, Cart 2", ("Cart 2",)),
     ],
 )
 def test_a_call_is_for_those_whom_its_words_name_or_for_all(text: str, meant: tuple[str, ...]) -> None:

@@ -88,8 +88,15 @@ def has_stop_word(text: str) -> bool:
 
 
 def called(text: str, names: Sequence[str]) -> tuple[str, ...]:
-    """Which of some robots a call to stop is for by its words alone, whoever it is said to."""
-    return tuple(names) if _EVERYBODY.search(_plain(text)) else named_in(text, names)
+    """Which of some robots a call to stop is for by its words alone, whoever it is said to.
+
+    Who is waited for is not called: "wait for Kim" is for whoever hears it.
+    """
+    if _EVERYBODY.search(_plain(text)):
+        return tuple(names)
+    known = "|".join(map(re.escape, names))
+    awaited = rf"\bfor\s+(?:{known})(?:\s+and\s+(?:{known}))*\b"
+    return named_in(re.sub(awaited, " ", text, flags=re.IGNORECASE) if names else text, names)
 
 
 def calls_to_stop(text: str) -> bool:

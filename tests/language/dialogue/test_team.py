@@ -51,6 +51,7 @@ def test_sentences_of_the_data_are_read_as_it_says(kind: str, say: str) -> None:
             [Part("all", "go to the dock", without=("Ada", "Kim"))],
         ),
         ("Everybody back!", [Part("all", "", home=True)]),
+        ("each of you check a different box", [Part("all", "check every box")]),
     ],
 )
 def test_who_does_what_is_told_apart_from_the_work(say: str, parts: list[Part]) -> None:

@@ -410,7 +410,9 @@ class _Work:
         together = part.who == "all" and wish.kind == "parts" and len(first.tasks) > 1
         if together and not (splits and (is_of_several(words) or " and " not in words)):
             text = sentence("Shall we share that, or shall each of us do all of it?")
-            return Mission(text=text, choices=(f"{words}, split between you", f"each of you: {words}"))
+            but = f" but {' and '.join(part.without)}" if part.without else ""
+            each = f"each of you{but}: {words}"
+            return Mission(text=text, choices=(each,) if but else (f"{words}, split between you", each))
         if part.who in ("one", "some"):
             tasks = [first.calls] * part.count
             return await self._allot(tasks, first, able, one_each=True, nearest=part.nearest)

@@ -209,7 +209,9 @@ class _Words:
             return TeamWish("share", (Part("all", found["what"]),), bare=True)
         if found := self._match(r"(?P<order>.+?),? (?:one each|one apiece|one for each of you)", text):
             return TeamWish("share", (Part("all", found["order"]),), one_each=True)
-        found = self._match(r"(?P<verb>\w+(?: \w+)?) one (?:of the )?(?P<what>\w+(?: \w+){0,2}) each", text)
+        one = r"(?P<verb>\w+(?: \w+)?) {} (?P<what>\w+(?: \w+){{0,2}}){}"
+        each = rf"(?:{self.of('each')}|{self.of('all')}),? {one.format('a (?:different|separate)', '')}"
+        found = self._match(one.format("one(?: of the)?", " each"), text) or self._match(each, text)
         if found and (found["verb"].split()[0].lower(),) in lexicon().verbs:
             return TeamWish("share", (Part("all", f"{found['verb']} every {found['what']}"),), one_each=True)
         return None
