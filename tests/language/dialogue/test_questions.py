@@ -35,6 +35,7 @@ def deed(label: str, **more: object) -> Deed:
 LOOKED = deed(
     "Look: “crate”", effects=("looks",), told=("I can see the crate.",), seen=("crate", "rope", "gate")
 )
+EMPTY = replace(LOOKED, label="Look: “yard”", told=("I see nothing.",), seen=("gate",))
 AREA = replace(LOOKED, label="Look: “Area B”")
 RUNS = (PlanStep(action=ActionCall(name="drive_to"), label="Go to “gate”", state="running"),)
 HELD = (RUNS[0].model_copy(update={"state": "paused"}),)
@@ -87,6 +88,9 @@ def test_what_is_about_the_world_is_left_to_others(sentence: str) -> None:
             "crate"),
         ("what did you see?", Dialogue(deeds=(LOOKED,)), "I can see the crate"),
         ("what did you see?", Dialogue(), "not looked"),
+        ("did you find anything?", Dialogue(deeds=(LOOKED, EMPTY)), "I can see the crate. I see nothing."),
+        ("did you find anything there?", Dialogue(deeds=(LOOKED, EMPTY)), "I see nothing. That was"),
+        ("did you find the crate?", Dialogue(deeds=(LOOKED, EMPTY)), "I can see the crate. That was"),
         ("what did you see at the crate?", Dialogue(deeds=(LOOKED,)), "I can see the crate"),
         ("did you find anything strange in area A?", Dialogue(deeds=(AREA,)), "not looked there"),
         ("what have you found in Area B?", Dialogue(deeds=(AREA,)), "I can see"),

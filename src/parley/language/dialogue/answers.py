@@ -312,9 +312,19 @@ def _seen(situation: Situation, about: str) -> str:
     if not looks:
         return f"I have not looked at anything with my camera yet, so I have seen nothing to tell. {here}"
     last = looks[-1]
+    meant = looks[-1:] if _THERE.search(situation.message) else [d for d in looks if d.order == last.order]
+    newest = [*{deed.label: deed for deed in meant}.values()][-_MOST:]
     lead = "No: " if last.ending == "no" else ""  # that a look ended well does not say that it found anything
-    told = last.told[-1] if last.told else f"I saw {listed(last.seen)}."
-    return f"{lead}{told} That was {_at(last.unix_ms)}, when I was to {step_words(last.label)}."
+    told = " ".join(d.told[-1] if d.told else f"I saw {listed(d.seen)}." for d in newest)
+    return f"{lead if len(newest) == 1 else ''}{told} {_when(last)}"
+
+
+def _when(look: Deed) -> str:
+    return f"That was {_at(look.unix_ms)}, when I was to {step_words(look.label)}."
+
+
+_THERE: Final = re.compile(r"\b(?:there|here|it|inside)\b", re.IGNORECASE)
+"""Said of the last look alone; else all that was looked at for the same order counts."""
 
 
 def _seen_labels(situation: Situation) -> tuple[Deed | None, list[str]]:
@@ -347,6 +357,9 @@ def _seen_thing(situation: Situation, about: str) -> str:
     hits = [label for label in look.seen if wanted & _stems(label)]
     if hits:
         return f"Yes, I saw {listed(hits)} there {_at(look.unix_ms)}."
+    before = [d for d in _looks(situation) if d.told and any(wanted & _stems(label) for label in d.seen)]
+    if before and not _THERE.search(situation.message):
+        return f"{before[-1].told[-1]} {_when(before[-1])}"
     rest = f" I saw {listed(labels)}." if labels else ""
     return f"I did not see any there, when I looked {_at(look.unix_ms)}.{rest}"
 
