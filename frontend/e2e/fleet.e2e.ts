@@ -43,7 +43,7 @@ describe.skipIf(!hasBrowser)('people with a team', () => {
     await desk.close(); // its cameras cost the robots time
     await yes.tap();
     await card.getByRole('button', { name: 'Cancel the part of Leo' }).tap();
-    await card.getByRole('listitem').filter({ hasText: 'Leo' }).getByText('Not all done').waitFor();
+    await card.getByRole('listitem').filter({ hasText: 'Leo' }).getByText('Ended early').waitFor();
     const end = page.getByText(/has ended\. Leo left out: /);
     await end.first().waitFor();
     expect(await end.first().textContent()).not.toMatch(/Spot|TIAGo/);

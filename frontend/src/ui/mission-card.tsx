@@ -58,7 +58,7 @@ export function MissionCard({ mission, isFolded = false }: Props) {
 /** Whose part stands or failed, also while the parts are folded. */
 function Trouble({ parts }: { parts: readonly MissionPart[] }) {
   const { t, i18n } = useTranslation('missions');
-  const states = ['held', 'away', 'interrupted', 'undone', 'refused'] as const;
+  const states = ['held', 'away', 'interrupted', 'refused'] as const;
   return states.map((state) => {
     const robots = parts.filter((part) => part.state === state).map((part) => part.robot);
     return robots.length === 0 ? null : (
