@@ -8,7 +8,7 @@ import { nameOf, type Candidates, type Mark } from './marks';
 import { PlaceMarks } from './place-marks';
 import type { Trails } from './use-trails';
 import type { Way as Trial } from './use-way';
-import { aside, bounds, boxOf, roomAt, roomForLabels, roomLabel, textsOf, toScreen, type Label, type Place, type Size, type Viewport } from './viewport';
+import { bounds, boxOf, boxOfThing, roomAt, roomForLabels, roomLabel, textsOf, toScreen, type Label, type Place, type Size, type Viewport } from './viewport';
 
 export interface Rover {
   name: string;
@@ -44,7 +44,6 @@ interface Props {
 const ROBOT_M = 0.18;
 const ROBOT_LEAST_PX = 11;
 const LABEL_BELOW_PX = 20;
-const ASIDE_PX = 17;
 const DOT_PX = 5;
 
 /** The map as a picture; whoever cannot see it has the list. */
@@ -174,12 +173,13 @@ function Labels({ map, things, rooms, candidates, rovers, view, size, robotPx }:
   });
   const { from, to } = bounds(map);
   const edge: readonly Corner[] = [[from.x, from.y], [to.x, to.y]];
-  const named = things.map((thing): Label => {
+  const boxes = things.map((thing) => boxOfThing(thing, view, size));
+  const named = things.map((thing, index): Label => {
     const number = candidates.get(thing.id)?.number;
     const texts = number ? [`${number}  ${nameOf(thing)}`, `${number}`] : textsOf(thing, view.scale);
-    const at = toScreen(view, size, thing);
     const around = roomAt(rooms, thing)?.corners ?? edge; // over walls nothing is written
-    return { id: `${number ? 'candidate' : 'thing'} ${thing.id}`, texts, at, others: aside(at, ASIDE_PX), within: boxOf(around, view, size) };
+    const [id, isInside] = number ? [`candidate ${thing.id}`, true] : [`thing ${thing.id}`, false];
+    return { id, texts, at: toScreen(view, size, thing), names: boxes[index], isInside, within: boxOf(around, view, size) };
   });
   const large = rooms.map((room) => roomLabel(room, things, view, size));
   const isFirst = ({ id }: Label) => id.startsWith('candidate');
@@ -187,7 +187,7 @@ function Labels({ map, things, rooms, candidates, rovers, view, size, robotPx }:
   const marks = rovers.map((rover) => ({ at: toScreen(view, size, rover.pose), radius: robotPx }));
   return (
     <g className={css.labels}>
-      {[...roomForLabels(labels, size, marks)].map(([id, { x, y, text }]) => (
+      {[...roomForLabels(labels, size, marks, boxes)].map(([id, { x, y, text }]) => (
         <text key={id} x={x} y={y} data-of={id.split(' ')[0]}>
           {text}
         </text>

@@ -1,4 +1,4 @@
-import { useMemo, useState } from 'react';
+import { useContext, useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { getRules } from '@/live/api';
@@ -6,11 +6,12 @@ import { useWorld } from '@/live/store';
 import type { MapInfo, Rule } from '@/live/types';
 import { useAsked } from '@/state/asked';
 import { useRobotNames, useSelection } from '@/state/selection';
-import { Button } from '@/ui/button';
+import { Beside, Button } from '@/ui/button';
 import type { Corner } from '@/ui/corners';
 import { Choice } from '@/ui/choice';
 import { Empty, Loading, Panel } from '@/ui/panel';
 import { useMap, type Shown } from '@/ui/use-map';
+import { useLayout } from '@/ui/use-media';
 import { useNow } from '@/ui/use-now';
 import { useKept, useRequest } from '@/ui/use-request';
 import { ago } from '@/ui/words';
@@ -41,15 +42,18 @@ export function MapPanel() {
   const [listed, setListed] = useState(false);
   const [asked, setAsked] = useState(0);
   const known = useWorld((world) => world.run !== '');
-  const robot = names.includes(picked) ? picked : selected;
+  const isBeside = useContext(Beside); // then the conversation says whose it is
+  const robot = !isBeside && names.includes(picked) ? picked : selected;
   const [placing, setPlacing] = useState(false);
   const edits = useEdits((done) => done.count);
   const mapName = useWorld((world) => world.views[robot]?.map_name ?? '');
   const places = useWorld((world) => world.views[robot]?.places ?? '');
   const shown = useMap(robot, `${mapName}\n${places}`, asked + edits);
+  const isNarrow = useIsNarrow();
+  const said = (name: string) => (isNarrow ? { iconOnly: true, 'aria-label': name } : {});
   const tools = (
     <>
-      {names.length > 1 && (
+      {names.length > 1 && !isBeside && (
         <Choice
           label={t('whose')}
           hideLabel
@@ -58,10 +62,10 @@ export function MapPanel() {
           onChange={setPicked}
         />
       )}
-      <Button needs="map" tone="quiet" icon="edit" aria-pressed={placing} isDisabled={shown.state !== 'ready'} onPress={() => setPlacing(!placing)}>
+      <Button needs="map" tone="quiet" icon="edit" {...said(t('places.mode'))} aria-pressed={placing} isDisabled={shown.state !== 'ready'} onPress={() => setPlacing(!placing)}>
         {t('places.mode')}
       </Button>
-      <Button tone="quiet" icon="plan" aria-pressed={listed} isDisabled={shown.state !== 'ready'} onPress={() => setListed(!listed)}>
+      <Button tone="quiet" icon="plan" {...said(t('asList'))} aria-pressed={listed} isDisabled={shown.state !== 'ready'} onPress={() => setListed(!listed)}>
         {t('asList')}
       </Button>
     </>
@@ -77,6 +81,12 @@ export function MapPanel() {
       )}
     </Panel>
   );
+}
+
+/** Whether buttons have room for their signs only. */
+function useIsNarrow(): boolean {
+  const isBeside = useContext(Beside);
+  return useLayout() === 'phone' || isBeside;
 }
 
 function NotYet({ shown, onRetry }: { shown: Exclude<Shown, { state: 'ready' }>; onRetry: () => void }) {

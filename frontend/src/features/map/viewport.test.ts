@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 
 import { mapInfo } from '@/live/samples';
 
-import { aside, bounds, boxOf, fit, freeIn, pan, roomAt, roomForLabels, textsOf, thingAt, toMap, toScreen, zoom } from './viewport';
+import { bounds, boxOf, fit, freeIn, pan, roomAt, roomForLabels, textsOf, thingAt, toMap, toScreen, zoom } from './viewport';
 
 const size = { width: 800, height: 400 };
 
@@ -68,8 +68,18 @@ describe('labels on a map', () => {
     const written = roomForLabels([label('a', 200, 100), label('b', 210, 104), label('c', 200, 200), label('d', 2, 50), label('e', -2, 90)], size);
     expect([...written.keys()]).toEqual(['a', 'c', 'd']);
     expect(written.get('d')?.x).toBe(32.5);
-    const beside = roomForLabels([label('a', 200, 100), { ...label('b', 210, 104), others: aside({ x: 210, y: 104 }, 20) }], size, [{ at: { x: 210, y: 82 }, radius: 8 }]);
-    expect(beside.get('b')).toMatchObject({ x: 210, y: 124 }); // above it is a robot
+  });
+
+  it('stand in what they name, or else beside it where neither another thing nor a robot is', () => {
+    const box = (left: number, width: number) => ({ left, right: left + width, top: 100, bottom: 120 });
+    const large = box(40, 80);
+    const small = box(200, 20);
+    const label = (id: string, names: typeof large, isInside = false) => ({ id, texts: ['front door'], at: { x: names.left, y: 110 }, names, isInside });
+    const put = (labels: Parameters<typeof roomForLabels>[0], ...things: (typeof large)[]) =>
+      [...roomForLabels(labels, size, [{ at: { x: 210, y: 130 }, radius: 8 }], [large, small, ...things])].map(([id, at]) => `${id} ${at.x} ${at.y}`);
+    expect(put([label('large', large), label('small', small)])).toEqual(['large 80 110', 'small 210 91']); // below it is a robot
+    expect(put([label('small', small)], { ...small, top: 80, bottom: 95 })).toEqual(['small 255.5 110']);
+    expect(put([label('small', small, true)])).toEqual([]);
   });
 
   it('put the name of a room where no thing is', () => {

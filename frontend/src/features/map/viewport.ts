@@ -111,6 +111,10 @@ export interface Label {
   at: Place;
   /** Where it may stand instead, the best first. */
   others?: readonly Place[];
+  /** What it names, on the screen: it stands in that or beside it, never half over its edge. */
+  names?: Box;
+  /** Whether it stands in what it names or nowhere. */
+  isInside?: boolean;
   /** Wider than others. */
   letterPx?: number;
   /** What it stays in, but for shortest words that are wider than that; not given: the screen. */
@@ -139,29 +143,44 @@ const meet = (a: Box, b: Box) => a.right >= b.left && a.left <= b.right && a.bot
 const isIn = (box: Box, outer: Box) => box.left >= outer.left && box.right <= outer.right && box.top >= outer.top && box.bottom <= outer.bottom;
 const between = (low: number, value: number, high: number) => (low > high ? (low + high) / 2 : Math.min(high, Math.max(low, value)));
 
+/** Where words about a thing may stand: in it, below, above, right and left of it. */
+function placesAt(thing: Box, half: number, isInside: boolean): readonly Place[] {
+  const x = (thing.left + thing.right) / 2;
+  const y = (thing.top + thing.bottom) / 2;
+  const line = LINE_PX / 2 + 1;
+  const inside = thing.right - thing.left >= 2 * half && thing.bottom - thing.top >= LINE_PX ? [{ x, y }] : [];
+  if (isInside) return inside;
+  const upright = [{ x, y: thing.bottom + line }, { x, y: thing.top - line }];
+  return [...inside, ...upright, { x: thing.right + half + 3, y }, { x: thing.left - half - 3, y }];
+}
+
 /**
  * What can be written inside the screen and not over each other; the first come first, and all get their
  * shortest words before any gets longer ones.
  * @param marks What must not be written over: middle and radius.
+ * @param things What words about other things must not stand on.
  */
 export function roomForLabels(
   labels: readonly Label[],
   size: Size,
   marks: readonly { at: Place; radius: number }[] = [],
+  things: readonly Box[] = [],
 ): ReadonlyMap<string, Written> {
   const screen = { left: 0, right: size.width, top: 0, bottom: size.height };
   const taken = new Map(marks.map(({ at, radius }, index) => [`mark ${index}`, around(at, radius, 2 * radius)]));
   const written = new Map<string, Written>();
-  const write = ({ id, at, others = [], letterPx = LETTER_PX, within = screen }: Label, text: string, isShortest: boolean): boolean => {
+  const write = ({ id, at, others = [], names, isInside = false, letterPx = LETTER_PX, within = screen }: Label, text: string, isShortest: boolean): boolean => {
     const half = (text.length * letterPx) / 2;
     const kept = ({ x, y }: Place): Place => ({
       x: between(within.left + half, x, within.right - half),
       y: between(within.top + LINE_PX / 2, y, within.bottom - LINE_PX / 2),
     });
+    const isFree = (box: Box) => !names || things.every((thing) => !meet(box, thing) || (thing === names && isIn(box, thing)));
     const fits = (box: Box) =>
-      isIn(box, isShortest ? screen : within) && isIn(box, screen) && [...taken].every(([other, its]) => other === id || !meet(box, its));
+      isIn(box, isShortest ? screen : within) && isIn(box, screen) && isFree(box) && [...taken].every(([other, its]) => other === id || !meet(box, its));
     const isSeen = isIn(around(at, 0, 0), screen); // else its name would stand at the edge
-    const place = isSeen && [at, ...others].map(kept).find((one) => fits(around(one, half, LINE_PX)));
+    const places = names ? placesAt(names, half, isInside) : [at, ...others];
+    const place = isSeen && places.map(kept).find((one) => fits(around(one, half, LINE_PX)));
     if (!place) return false;
     taken.set(id, around(place, half, LINE_PX));
     written.set(id, { ...place, text });
@@ -169,17 +188,17 @@ export function roomForLabels(
   };
   for (const label of labels) write(label, label.texts.at(-1) ?? '', true);
   for (const label of labels) {
-    const at = written.get(label.id); // longer words only where the short ones stand: there they belong
+    const at = written.get(label.id); // longer words only where the short ones stand, or beside what they name
     if (at) label.texts.slice(0, -1).some((text) => write({ ...label, at, others: [] }, text, false));
   }
   return written;
 }
 
-/** Above and below a place. */
-export const aside = ({ x, y }: Place, px: number): readonly Place[] => [
-  { x, y: y - px },
-  { x, y: y + px },
-];
+/** Where a thing is on the screen. */
+export function boxOfThing(thing: MapThing, view: Viewport, size: Size): Box {
+  const { x, y } = toScreen(view, size, thing);
+  return around({ x, y }, (thing.width / 2) * view.scale, thing.height * view.scale);
+}
 
 /** Where in a room its name lies over no thing, or over less, the middle and what is near to it first. */
 export function freeIn(room: MapRoom, things: readonly MapThing[], scale: number): readonly Place[] {

@@ -35,7 +35,8 @@ export function PlanPanel() {
   const known = useWorld((world) => world.run !== '');
   const chosen = useSelection();
   const [picked, setPicked] = useState({ key: '', whileChosen: '' });
-  const shown = shownPlans(plans, robots);
+  const isBeside = useContext(Beside); // then the conversation says whose
+  const shown = shownPlans(plans, robots).filter((plan) => !isBeside || chosen.includes(plan.robot));
   // A pick holds until the person talks to another robot.
   const plan = pickPlan(shown, picked.whileChosen === chosen.join('\n') ? picked.key : '', chosen);
   const name = (one: PlanView) =>
@@ -193,6 +194,7 @@ function Steps({ title, from, lines, plan, isFolded = false, isEditing = false, 
                 line={line}
                 number={from + index + 1}
                 changed={plan.changed.includes(line.step.id)}
+                isHeld={plan.state === 'held'}
                 onRemove={onRemove && plan.kind === 'plan' && line.step.state === 'queued' ? () => onRemove(line) : null}
               />
             ),

@@ -31,17 +31,19 @@ interface Props {
   line: Line;
   number: number;
   changed: boolean;
+  /** Whether its plan waits for help with what did not work. */
+  isHeld?: boolean;
   /** Given if the step can still be taken out. */
   onRemove?: (() => void) | null;
 }
 
 /** One step on one line: sign, what it does, how long it took; the rest on a tap. Never told by colour alone. */
-export function StepCard({ line, number, changed, onRemove = null }: Props) {
+export function StepCard({ line, number, changed, isHeld = false, onRemove = null }: Props) {
   const { t } = useTranslation('plan');
   const [open, setOpen] = useState(false);
   const { step } = line;
   const label = sentence(step.label) || inWords(step.action);
-  const state = useFound(step) ? 'found' : step.state;
+  const state = useShownState(step, isHeld);
   return (
     <li className={css.card} data-state={step.state} data-changed={changed || undefined}>
       <div className={css.line}>
@@ -67,6 +69,11 @@ export function StepCard({ line, number, changed, onRemove = null }: Props) {
       {open && <Details line={line} />}
     </li>
   );
+}
+
+function useShownState(step: StepView, isHeld: boolean) {
+  if (useFound(step)) return 'found';
+  return isHeld && step.state === 'failed' ? 'held' : step.state;
 }
 
 /** Whether a step counts as failed only because of what it found: looking itself went well. */
