@@ -116,6 +116,7 @@ export const step = (part: Partial<StepView> & { id: string }): StepView => ({
   ended_unix_ms: 0,
   worked_ms: 0,
   working_since_unix_ms: 0,
+  ends_unix_ms: 0,
   only_finds: false,
   ...part,
 });

@@ -179,6 +179,8 @@ class StepView(WebModel):
     """For how long it has worked, until `working_since_unix_ms` if it works; standing does not count."""
     working_since_unix_ms: int = 0
     """Since when it works; 0: it does not."""
+    ends_unix_ms: int = 0
+    """About when it is done if it goes on like that; 0: nobody knows."""
 
 
 class PlanView(WebModel):

@@ -10,6 +10,7 @@ from parley.messages.chat import ActionCall
 from parley.messages.failure import FailureReport
 from parley.messages.pvf import Parameter, fits_type
 from parley.messages.status import GraphEvent
+from parley.messages.work import Work
 from parley.umrf.model import Graph, Node
 from parley.web.models import ParameterView
 
@@ -22,7 +23,6 @@ GraphShown = Literal["running", "paused", "held", "ended"]
 
 OVER: Final = frozenset({"finished", "failed", "stopped", "skipped"})
 """States of a step from which nothing follows any more."""
-_AT_WORK: Final = frozenset({"running", "stopping"})
 _NODE_STATES: Final[Mapping[str, StepState]] = {
     "RUNNING": "running",
     "PAUSE_REQUESTED": "running",
@@ -52,15 +52,13 @@ class NodeTold:
     outputs: tuple[ParameterView, ...] = ()
     started_unix_ms: int = 0
     ended_unix_ms: int = 0
-    worked_ms: int = 0
-    """How long it worked, without the time while it stood still."""
-    working_since_unix_ms: int = 0
-    """0 while it does not work."""
+    work: Work = field(default_factory=Work)
     call: ActionCall | None = None
     """What it does, as far as the whole graph was told."""
 
     def on_event(self, event: GraphEvent) -> None:
         """A transition or progress."""
+        self.work.on_event(event)
         if event.kind == "progress":
             self.progress, self.progress_text = event.progress, event.progress_text
             return
@@ -69,11 +67,6 @@ class NodeTold:
             self.state = "stopped"
         if self.state == "running" and not self.started_unix_ms:
             self.started_unix_ms = event.unix_ms
-        if self.working_since_unix_ms and self.state not in _AT_WORK:
-            self.worked_ms += max(0, event.unix_ms - self.working_since_unix_ms)
-            self.working_since_unix_ms = 0
-        elif not self.working_since_unix_ms and self.state in _AT_WORK:
-            self.working_since_unix_ms = event.unix_ms
         if self.state in OVER:
             self.ended_unix_ms = event.unix_ms
         if event.outputs:

@@ -264,8 +264,9 @@ class PlanBook:
             call=call.model_dump(),
             started_unix_ms=node.started_unix_ms,
             ended_unix_ms=node.ended_unix_ms if is_over else 0,
-            worked_ms=node.worked_ms,
-            working_since_unix_ms=node.working_since_unix_ms,
+            worked_ms=node.work.ms,
+            working_since_unix_ms=node.work.since_unix_ms,
+            ends_unix_ms=node.work.ends_unix_ms,
             **self._nature(robot, call.name),
         )
 

@@ -19,7 +19,7 @@ it('says where a robot is and for how long it works on what it really does', () 
   expect([...line.querySelectorAll('p > :not([aria-hidden])')].map((one) => one.textContent)).toEqual(
     ['Ada', 'Working', 'Hall', '92 %', '2 of 2: Go to the door', '1:05'],
   );
-  const far = { ...finds, only_finds: false, progress: 0.75, worked_ms: 0 };
+  const far = { ...finds, only_finds: false, ends_unix_ms: 120_000 };
   act(() => useLive.getState().takeChanges([{ kind: 'plan', seq: 1, plan: plan({ robot: 'Ada', steps: [far] }) }]));
   expect(line.querySelector('time')?.textContent).toBe('0:20 to go');
   const asks = plan({ robot: 'Ada', steps: [step({ id: 'ask', state: 'waiting' })] });

@@ -17,8 +17,6 @@ import css from './robot-line.module.css';
 const AT_WORK: ReadonlySet<StepView['state']> = new Set(['running', 'waiting', 'paused', 'stopping']);
 const OVER: ReadonlySet<PlanView['state']> = new Set(['idle', 'ended']);
 const SECOND_MS = 1000;
-/** From this part of a step on, the time that it took says how long the rest takes. */
-const TELLING = 0.15;
 
 /** How a robot fares: where it is, what it really does now, and for how long. */
 export function RobotLine({ name, named }: { name: string; named: boolean }) {
@@ -78,9 +76,8 @@ function taskOf(plan: PlanView) {
 function Worked({ step }: { step: StepView }) {
   const { t } = useTranslation('chat');
   const now = useNow(SECOND_MS);
-  const workedMs = step.worked_ms + onServerClock(now) - step.working_since_unix_ms;
-  const done = step.progress ?? 0;
-  const isTelling = done >= TELLING && done < 1;
-  const time = span(isTelling ? (workedMs * (1 - done)) / done : workedMs);
+  const leftMs = step.ends_unix_ms - onServerClock(now);
+  const isTelling = leftMs > 0;
+  const time = span(isTelling ? leftMs : step.worked_ms + onServerClock(now) - step.working_since_unix_ms);
   return <time aria-label={t(isTelling ? 'toGoLong' : 'since', { time })}>{isTelling ? t('toGo', { time }) : time}</time>;
 }

@@ -11,6 +11,7 @@ from parley.language.dialogue.later import due
 from parley.language.dialogue.state import Asked, Deed, Dialogue, Ending, Order, Stop
 from parley.messages.chat import LeftOpen
 from parley.messages.status import ActionInfo, ActorStatus, GraphEvent, PlanProposal, PlanStep, PlanUpdate
+from parley.messages.work import Work
 
 __all__ = ["Log"]
 
@@ -23,16 +24,13 @@ _ASKED_TURNS: Final = 6
 _ENDINGS: Final[dict[str, Ending]] = {
     "finished": "done", "failed": "failed", "stopped": "stopped", "skipped": "left out", "running": "running",
 }  # fmt: skip
-_LEAST_SHARE: Final = 0.05
-"""Of a step that has come less far nobody knows yet how long it takes."""
 
 
 @dataclass(slots=True)
 class _Facts:
     """What the engine tells of one node."""
 
-    began_s: float = 0.0
-    left_s: float | None = None
+    work: Work = field(default_factory=Work)
     left_text: str = ""
     over: bool = False
     is_false: bool = False
@@ -67,6 +65,15 @@ class Log:
         """An order has to be asked about first."""
         alarm = asked.alarm or (self._asked is not None and self._asked[0].alarm)
         self._asked = (replace(asked, alarm=alarm), _ASKED_TURNS)
+
+    @property
+    def has_just_asked(self) -> bool:
+        """Whether nothing was said since an order was asked about."""
+        return self._asked is not None and self._asked[1] == _ASKED_TURNS
+
+    def on_given_up(self) -> None:
+        """What was asked about is not wanted any more."""
+        self._asked = None
 
     def on_left_open(self, words: str, left: LeftOpen) -> None:
         """A message was answered so that later ones may refer to it."""
@@ -107,13 +114,12 @@ class Log:
         """A step began, came further or ended."""
         key = (event.graph_name, event.node)
         if event.kind == "node" and event.state == "RUNNING" and key not in self._facts:
-            _put(self._facts, key, _Facts(event.robot_time_s))
+            _put(self._facts, key, _Facts())
         facts = self._facts.get(key)
         if facts is None:
             return
+        facts.work.on_event(event)
         if event.progress is not None:
-            gone_s, share = max(0.0, event.robot_time_s - facts.began_s), event.progress
-            facts.left_s = gone_s * (1.0 - share) / share if share > _LEAST_SHARE else None
             facts.left_text = event.progress_text
         if event.result:
             found = event.outputs.get("seen")
@@ -142,7 +148,7 @@ class Log:
             told=tuple(self._told),
             stopped=self._stopped,
             refused=self._refused,
-            left_s=None if newest.over else newest.left_s,
+            left_s=None if newest.over else newest.work.left_s(now_unix_ms),
             left_text="" if newest.over else newest.left_text,
             battery=status.battery if status is not None else None,
             latched=status is not None and status.state == "stopped",

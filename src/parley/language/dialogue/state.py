@@ -103,7 +103,7 @@ class Dialogue:
     refused: str = ""
     """Why the last order was not carried out, if it was not."""
     left_s: float | None = None
-    """How long the running step may still take, in robot time."""
+    """How long the running step may still take."""
     left_text: str = ""
     """What is left of it, in the action's own words."""
     battery: float | None = None
