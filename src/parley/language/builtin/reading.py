@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 from parley.language.builtin.amounts import amount_of, direction_of
 from parley.language.builtin.fillers import Filler
@@ -64,7 +65,21 @@ def read(parse: Parse, lexicon: Lexicon) -> Reading:
     looks = lexicon.classes["looking"] if any(wish.frame == "LOOK" for wish in spread) else frozenset()
     left = tuple(word for word in idle if word not in manner and word.lower() not in looks)
     moves = frozenset(parse.moves) - {"none"}
-    return Reading(frozenset(parse.acts), tuple(spread), rest, left, manner, _about(parse, lexicon), moves)
+    return Reading(_acts(parse), tuple(spread), rest, left, manner, _about(parse, lexicon), moves)
+
+
+def _acts(parse: Parse) -> frozenset[str]:
+    """What is done by saying it; neither a call before "can you go there?" nor the mark behind it asks."""
+    lows = [token.low for token in parse.tokens]
+    at = next((at for at, pair in enumerate(pairwise(lows)) if pair in _REQUESTS), None)
+    if at is None:
+        return frozenset(parse.acts)
+    first = at if lows[1:2] == [","] and at == 2 else 0
+    pairs = list(zip(parse.acts, parse.tokens, strict=True))[first:]
+    return frozenset(act for act, token in pairs if token.is_word)
+
+
+_REQUESTS = {(modal, "you") for modal in ("can", "could", "will", "would")}
 
 
 def _ordered_alone(parse: Parse, spans: list[Span]) -> list[Span]:
