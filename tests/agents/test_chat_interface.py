@@ -583,7 +583,7 @@ async def test_letting_go_concerns_one_robot() -> None:
         assert "All right." not in [said.message for said in room.observer.said]
 
 
-@pytest.mark.parametrize("text", ["never mind", "Nevermind.", "forget it", "please forget that", "drop it!"])
+@pytest.mark.parametrize("text", ["never mind", "Nevermind.", "leave it", "please forget that", "drop it!"])
 def test_words_that_let_go_are_known(text: str) -> None:
     assert is_never_mind(text)
 
@@ -608,12 +608,57 @@ async def test_a_no_in_any_words_goes_to_the_plan_that_waits_before_any_step(roo
     assert (decided.id, decided.decision, room.planner.orders) == ("p1", "reject", [])
 
 
-async def test_a_no_to_a_robot_that_asked_nothing_holds_it(room: Room) -> None:
-    room.observer.publish(topics.PLAN, running("A").model_copy(update={"state": "paused"}))
+@pytest.mark.parametrize("words", ["actually no, forget it, stay", "never mind", "leave it", "forget it"])
+async def test_a_no_to_a_robot_that_asked_nothing_holds_it(room: Room, words: str) -> None:
+    room.observer.publish(topics.PLAN, running("A"))
     await room.observer.until(lambda: "A" in room.observer.plans)
-    room.observer.say("actually no, forget it, stay", "A")
+    room.observer.say(words, "A")
     (order,) = await room.orders()
     assert [command.command for command in order.system_cmd] == ["stop"]
+
+
+@pytest.mark.parametrize("words", ["never mind", "leave it", "cancel", "no thanks"])
+async def test_a_no_to_which_one_is_meant_leaves_that_and_nothing_else(room: Room, words: str) -> None:
+    asks = ChatAction(message_response="Which one?", choices=("left box", "right box"))
+    room.language.will("interpret", asks)
+    room.observer.say("go to the box", "A")
+    await room.reply()
+    room.observer.say(words, "A")
+    assert await room.reply(2) == "All right, then I leave it."
+    room.language.will("interpret", ChatAction(queue=(look(),)))
+    room.observer.say("the left box", "A")
+    (order,) = await room.orders()
+    assert order.words == "the left box", "the order was given up, so this is a new one"
+
+
+async def test_an_order_is_called_by_its_words_and_not_by_the_answer_to_which_one(room: Room) -> None:
+    asks = ChatAction(message_response="Which one?", choices=("left box", "right box"))
+    room.language.will("interpret", asks)
+    room.observer.say("go to the box", "A")
+    await room.reply()
+    room.language.will("interpret", ChatAction(queue=(look(),)))
+    room.observer.say("Left box.", "A")
+    (order,) = await room.orders()
+    assert order.words == "go to the box"
+
+
+@pytest.mark.parametrize("order, goes", [("B, go to the box", True), ("go to the box", False)])
+async def test_an_answer_sets_whom_the_order_named_in_motion_and_nobody_else(
+    room: Room, order: str, *, goes: bool
+) -> None:
+    room.language.will(
+        "interpret", ChatAction(message_response="Which one?", choices=("left box", "right box"))
+    )
+    room.observer.say(order, "A")
+    await room.reply()
+    room.language.will("interpret", ChatAction(queue=(look(),), targets=("B",)))
+    room.observer.say("left box", "A")
+    if goes:
+        (given,) = await room.orders()
+        assert given.targets == ("B",)
+    else:
+        assert "I leave the other robot alone" in await room.reply(2)
+        assert not room.planner.orders
 
 
 def running(robot: str, **more: Any) -> PlanUpdate:

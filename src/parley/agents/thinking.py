@@ -79,6 +79,11 @@ class Thinking:
         slow = running is not None and asyncio.get_running_loop().time() >= running.patient_until_s
         return running.message if running is not None and slow else ""
 
+    def is_at_work(self, robot: str) -> bool:
+        """Whether a robot thinks about something that somebody may want to let go of."""
+        running = self._running.get(robot)
+        return running is not None and running.message != ""
+
     def drop(self, robot: str) -> bool:
         """Let go of what a robot thinks about, at once; whether there was anything."""
         running = self._running.get(robot)

@@ -7,7 +7,7 @@ import unicodedata
 from collections.abc import Sequence
 from typing import Final
 
-__all__ = ["assent_of", "begins_with_no"]
+__all__ = ["assent_of", "begins_with_no", "gives_up"]
 
 _YES: Final = frozenset({
     "yes", "yes please", "yes do", "yes do it", "yes do that", "yes go ahead", "yeah", "yep", "yup", "ok",
@@ -111,6 +111,14 @@ def _put_together(words: Sequence[str]) -> bool | None:
         else:
             return None
     return found.pop() if len(found) == 1 else None
+
+
+_ONE_OF_THEM: Final = re.compile(r"\b(?:not (?:that|this|those|the|like|what)|wrong)\b", re.IGNORECASE)
+
+
+def gives_up(text: str, names: Sequence[str] = ()) -> bool:
+    """Whether a whole utterance is a no to a question of which one is meant, and not to one of them alone."""
+    return assent_of(text, names) is False and not _ONE_OF_THEM.search(text)
 
 
 def begins_with_no(text: str) -> bool:

@@ -93,7 +93,10 @@ class Heard:
         said = self._said.get(order.reply_to) if order.reply_to else None
         asked: dict[str, Any] = {}
         if said is not None:
-            asked = {"asked_by": said.who.model_dump(), "asked": said.message}
+            # Behind an answer to "which one?" stands the order; what nobody said is told of nobody.
+            was_said = any(one.message == order.words for one in self._said.values())
+            words = order.words if was_said else said.message
+            asked = {"asked_by": said.who.model_dump(), "asked": words}
         events = [
             AuditEvent(effect=EFFECT_OF[command.command], by=order.by, robot=robot, outcome="asked",
                        detail={"command": command.command, **_named(command.arguments), **asked})

@@ -249,7 +249,7 @@ class LeftOpen(Payload):
     where: str = ""
     """Whose or what's place was asked for; `you` for who spoke."""
     about: str = ""
-    """The order that it was asked about, where that is not the message."""
+    """The order that it was asked about, where that is not the message: nor is an answer to that."""
     waits: bool = False
     """Whether the order is done when somebody tells what it waits for."""
     told: tuple[str, ...] = ()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from parley.language.base import Turn
@@ -43,7 +45,7 @@ def test_a_real_one_is_told_and_the_order_beside_it_is_offered(told: str, order:
     past = (Turn("operator", message), Turn("assistant", asked.question))
     open_question = Dialogue(asked=Asked(message, asked.choices))
     agreed = ENGINE.decide(situation("yes", history=past, dialogue=open_question))
-    assert isinstance(agreed, Do) and agreed == ENGINE.decide(situation(order))
+    assert isinstance(agreed, Do) and replace(agreed, about="") == ENGINE.decide(situation(order))
 
 
 @pytest.mark.parametrize("told", ["a crate is blocking the front gate", "the pump is making a strange noise"])

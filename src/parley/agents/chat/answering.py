@@ -134,6 +134,9 @@ class Answering:
             return
         heard = self._heard(target, said, situation, understood, own=bool(own))
         admitted = admit(bound_to_steps(understood, situation.steps), heard)
+        if understood.targets and not admitted.order.targets:  # it is not for whoever hears it, then
+            self.say((target,), admitted.refused[0], "response", said.id)
+            return
         order = self.trusted(target, admitted.order)
         if order is None:
             self.say((target,), texts.CANNOT, "error", said.id)
@@ -191,7 +194,10 @@ class Answering:
         self, target: str, said: ChatInput, understood: ChatAction, admitted: Admitted, situation: Situation
     ) -> None:
         """Hand an order on, hear what became of it, and say just that."""
-        order = admitted.order.model_copy(update={"id": uuid.uuid4().hex, "reply_to": said.id})
+        words = _ordered(understood, situation) or admitted.order.words
+        order = admitted.order.model_copy(
+            update={"id": uuid.uuid4().hex, "reply_to": said.id, "words": words}
+        )
         wanted = [
             command
             for command in order.system_cmd
@@ -269,11 +275,14 @@ class Answering:
     def _heard(
         self, target: str, said: ChatInput, situation: Situation, understood: ChatAction, *, own: bool
     ) -> Heard:
+        order = _ordered(understood, situation)
         return Heard(
             words=said.message,
             by=said.who,
             robot=target,
-            named=tuple(name for name in self._presence.named_in(said.message) if name != target),
+            named=tuple(
+                name for name in self._presence.named_in(f"{said.message} {order}") if name != target
+            ),
             engine=understood.engine or self._language.label,
             own=own,
             known=situation.memory,
@@ -329,3 +338,12 @@ class Answering:
         others = {self._presence.resolve(name) for name in said.targets} - {target}
         left = tuple(name for name in order.targets if name not in others)
         return order.model_copy(update={"targets": left})
+
+
+def _ordered(understood: ChatAction, situation: Situation) -> str:
+    """The order that a message answers what was asked back about, if it does: that is what was wanted."""
+    asked, about = situation.dialogue.asked, understood.left_open.about
+    if asked is None or not understood.queue:
+        return ""
+    answers = situation.message.strip(" .!").casefold() in {choice.casefold() for choice in asked.choices}
+    return asked.words if answers or about == asked.words else ""

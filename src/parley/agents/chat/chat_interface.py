@@ -34,7 +34,7 @@ from parley.agents.questions import SeenIds
 from parley.agents.thinking import PATIENCE_S, Thinking
 from parley.clock import Clock
 from parley.errors import FailureCode
-from parley.gate.assent import assent_of, begins_with_no
+from parley.gate.assent import assent_of, begins_with_no, gives_up
 from parley.gate.rule_talk import Listener, RuleReply, RuleTalk
 from parley.gate.table import Effect, verdict
 from parley.language.base import Language
@@ -227,13 +227,16 @@ class ChatInterface(Node):
         if control is None and said.type == "response" and not said.targets and self._questions.robots():
             self._questions.on_input(said)
             return  # an answer; where several robots wait, the error handler asks which is meant
-        calls, refuses = calls_to_stop(said.message), self._says_no(said.message, control)
+        calls, lets_go = calls_to_stop(said.message), texts.is_never_mind(said.message)
+        refuses = lets_go or self._says_no(said.message, control)
         called = self._called_off(said) if calls else []
         hear: list[tuple[str, ChatFeedback | None]] = []
         for target in self._meant(said, control, calls=calls):
             question = self._questions.newest(target) if said.type == "response" else None
             offered = self._offered.newest(target) is not None and question is None
-            unasked = refuses and question is None and not offered
+            wanted_back = question is None and not offered and self._gives_up(target, said, control)
+            refusing = refuses and not (lets_go and self._thinking.is_at_work(target))
+            unasked = refusing and question is None and not offered
             moves = self._known.moves(target, self._presence.get(target))
             # Somebody else may just have said yes: what begins by that has not set the robot in motion yet.
             stands = self._known.state(target) == "paused"
@@ -242,7 +245,9 @@ class ChatInterface(Node):
             )
             turns = question is None and control in (None, "stop")
             objects = moves and not offered and control is None and opens_with_no(said.message)
-            if turns and (objects or only_takes_back(said.message, moves=moves)):
+            if wanted_back:
+                self._leave(target, said)
+            elif turns and (objects or only_takes_back(said.message, moves=moves)):
                 self._mailboxes.post(target, self._correction(target, said, moves=moves))
             elif halts and control not in _HALTING:
                 self._control(target, "stop", said, more=control is None)
@@ -383,10 +388,21 @@ class ChatInterface(Node):
         return asked is not None and "go on" in asked.choices and not _AGAIN & {*message.lower().split()}
 
     def _says_no(self, message: str, control: Control | None) -> bool:
-        """Whether somebody says no in any words that are not a control word or about an older message."""
-        in_other_words = control is None and not texts.is_never_mind(message)
-        refuses = in_other_words and assent_of(message, self._presence.names()) is False
+        """Whether somebody says no in any words that are not a control word."""
+        refuses = control is None and assent_of(message, self._presence.names()) is False
         return refuses or is_no(message)
+
+    def _gives_up(self, target: str, said: ChatInput, control: Control | None) -> bool:
+        """Whether a no is to what a robot has just asked back about an order; "cancel" ends a drive too."""
+        means_more = control in _HALTING and not (control == "clear" and self._known.state(target) == "idle")
+        asked = self._known.log(target).has_just_asked and not means_more
+        return asked and gives_up(said.message, self._presence.names())
+
+    def _leave(self, target: str, said: ChatInput) -> None:
+        """Do without the order that was asked about."""
+        self._known.log(target).on_given_up()
+        self._known.note(target, said.message, texts.LEFT)
+        self._say((target,), texts.LEFT, "response", said.id)
 
     def _refuses(self, target: str, said: ChatInput) -> bool:
         """Whether "leave it" is a no to what the robot asked last, not a step that is to be left out."""

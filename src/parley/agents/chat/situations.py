@@ -98,7 +98,9 @@ class Situations:
             self._changes[target] = self.changes(target) + 1
         for target in order.targets if order.queue else ():
             pose = _pose(self._presence.get(target))
-            asked = Order(said.message, said.who.name, self._clock.unix_ms(), tuple(order.queue), pose)
+            asked = Order(
+                order.words or said.message, said.who.name, self._clock.unix_ms(), tuple(order.queue), pose
+            )
             self.log(target).on_order(asked)
 
     def catalogue(self, target: str) -> Sequence[ActionInfo]:

@@ -14,6 +14,7 @@ __all__ = [
     "AFTERWARDS",
     "CANNOT",
     "CONTROL_REPLIES",
+    "LEFT",
     "MAX_CHARS",
     "NEVER_MIND",
     "NOTHING_TO_RESUME",
@@ -73,10 +74,11 @@ _NOTHING_TO_FORGET: Final = (
 NEVER_MIND: Final = "never mind"
 """What lets go of a message that takes long, and nothing else; "stop" stops the robot as well."""
 _NEVER_MIND: Final = re.compile(
-    r"(?:please )?(?:never ?mind(?: it| that| this)?|(?:forget|drop) (?:it|that|this))(?: please)?"
+    r"(?:please )?(?:never ?mind(?: it| that| this)?|(?:forget|drop|leave) (?:it|that|this))(?: please)?"
 )
 
 
+LEFT: Final = "All right, then I leave it."
 ONLY_LOOKS: Final = "You may look and stop, but not give orders here."
 REST_LEFT: Final = sentence("If there was more in what you said, please say it again.")
 SAID_AGAIN: Final = sentence("The same comes again and again. I take it as said once.")

@@ -67,6 +67,8 @@ class Do:
     told: tuple[Told, ...] = ()
     robots: tuple[str, ...] = ()
     """Who is to do it."""
+    about: str = ""
+    """The order that was asked about before, where the message only answers that."""
 
 
 @dataclass(frozen=True, slots=True)

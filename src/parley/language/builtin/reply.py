@@ -43,6 +43,7 @@ def to_chat(decision: Decision, lexicon: Lexicon) -> ChatAction:
                 system_cmd=_memories(told),
                 targets=robots,
                 sources=tuple(note.source for note in notes if note.source),
+                left_open=LeftOpen(about=decision.about),
             )
         case Ask(question, choices, told=told):
             stop = (SystemCommand(command="stop"),) if decision.stops else ()

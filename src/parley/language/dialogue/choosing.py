@@ -43,12 +43,15 @@ def choice_of(situation: Situation, tokens: Sequence[Token], again: Again) -> De
     several = together(words, asked.choices, also) if {*asked.choices} <= {*also} else ()
     if several:
         made = [again(asked.words, [name for name in asked.choices if name != one]) for one in several]
-        return _one_after_the_other(made)
+        joined = _one_after_the_other(made)
+        return replace(joined, about=asked.words) if isinstance(joined, Do) else joined
     choice = chosen(words, asked.choices, also)
     if choice is None or _orders(words, choice, asked.choices):
         return None
     one = again(asked.words, [name for name in asked.choices if name != choice])
-    return one if isinstance(one, Do | Edit) or (isinstance(one, Ask) and one.offer) else None
+    if isinstance(one, Do):
+        return replace(one, about=asked.words)
+    return one if isinstance(one, Edit) or (isinstance(one, Ask) and one.offer) else None
 
 
 def _orders(words: Sequence[str], choice: str, choices: Sequence[str]) -> bool:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Final
 
-from parley.gate.assent import assent_of
+from parley.gate.assent import gives_up
 from parley.language.base import Situation
 from parley.language.builtin.decision import Answer, Ask, Decision, Do, Edit, Forget, Remember, Told
 from parley.language.builtin.facts import Place
@@ -111,7 +111,8 @@ def _agreed(situation: Situation, reading: Reading, again: Again) -> Decision | 
     asked = situation.dialogue.asked
     if asked is None or not asked.choices or "yes" not in reading.moves or reading.wishes:
         return None
-    return again(asked.choices[0])
+    made = again(asked.choices[0])
+    return replace(made, about=asked.words) if isinstance(made, Do) else made
 
 
 def _about_itself(
@@ -349,8 +350,7 @@ def _asked_again(
     if not {*asked.choices} <= {item.description for item in situation.objects}:
         return None
     bare = plain(tokens, (situation.robot,))
-    gives_up = assent_of(situation.message, situation.robots) is False and not _OTHER.search(bare)
-    if gives_up or _NONE.fullmatch(bare):
+    if gives_up(situation.message, situation.robots) or _NONE.fullmatch(bare):
         return Answer("All right, then I leave it.")
     return Ask(f"I did not understand that. {which_one(asked.choices)}")
 
@@ -359,8 +359,6 @@ _NONE: Final = re.compile(
     r"(?:(?:no|nope|sorry|oh|well) )*(?:no|nope|none|neither|nothing|not any)"
     r"(?: of (?:them|those|these|the two))?(?: thanks| thank you| please)?"
 )
-_OTHER: Final = re.compile(r"\b(?:not|wrong)\b")
-"""With it a no may be to one of them alone: "not that one"."""
 _BY_HAND: Final = {
     "GIVE": ("give", "hand"),
     "PUT": ("put", "place", "lay"),

@@ -72,7 +72,7 @@ def answered_place(situation: Situation, lexicon: Lexicon, again: Again) -> Deci
         return None
     told = _told(_who(situation) if asked.where == "you" else asked.where, said["side"] or "near", where)
     made = again(asked.words, told=(MemoryEntry(name=told.name, data=told.text),))
-    return replace(made, told=(told, *made.told)) if isinstance(made, Do) else None
+    return replace(made, told=(told, *made.told), about=asked.words) if isinstance(made, Do) else None
 
 
 def _plain(message: str) -> str:
