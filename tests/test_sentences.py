@@ -103,6 +103,11 @@ def test_parts_are_said_one_by_one_and_foreign_words_stay() -> None:
             "Teen nii: mine kohta box ja siis oota 5 sekundit.",
         ),
         ("Which one do you mean: the box or the gate?", "Millist sa mõtled: box või gate?"),
+        ("Several places fit “it”: red box and gate.", "Mitu kohta sobib, „it“: red box ja gate."),
+        (
+            "I know that because you told me yesterday at 9:05.",
+            "Tean seda, sest sa ütlesid mulle seda eile kell 9:05.",
+        ),
         ("I will remember that I will go to the box.", "Jätan meelde: I will go to the box."),
         ("You told me: “I go on. Shall I?”.", "Sa ütlesid mulle: „I go on. Shall I?“."),
         ("You asked me: “Which one?”", "You asked me: „Which one?“"),

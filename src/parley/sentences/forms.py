@@ -98,6 +98,9 @@ def _filling(template: str, name: str, behind: str) -> str:
     return ".+?" if whole else r"(?:(?![.?!]\s+[A-Z“]).)+?"
 
 
+_JOINED: Final = "{first} and {last}"
+
+
 class Catalogue:
     """The sentences of one language.
 
@@ -159,10 +162,20 @@ class Catalogue:
             held = match.groupdict()
             if not all(_is_balanced(value) for value in held.values()):
                 continue
-            values = {name: value if name in form.own else self._said(value) for name, value in held.items()}
+            values = {name: self._held(name, value, form) for name, value in held.items()}
             if not form.joins or (values != held and len(list(_sentences(text))) == 1):
                 return ended_once(form.other.format(**values))
         return None
+
+    def _held(self, name: str, value: str, form: _Form) -> str:
+        """What is filled in; between names, which stay, stands a word of this language."""
+        if name in form.own:
+            return value
+        said = self._said(value)
+        first, joined, last = value.rpartition(" and ")
+        if said != value or name != "list" or not joined:
+            return said
+        return self.pairs.get(_JOINED, _JOINED).format(first=self._said(first), last=self._said(last))
 
 
 def ended_once(text: str) -> str:

@@ -60,6 +60,8 @@ def test_special_kinds_are_called_by_the_general_name_and_not_the_other_way_roun
         "can you open the front gate",
         "do you think you could open the front gate",
         "could you open the front gate",
+        "can you open the front gate?",
+        "Ada, can you open the front gate?",
     ],
 )
 def test_an_order_may_have_the_form_of_a_question(asked: str) -> None:

@@ -21,6 +21,7 @@ const SHOWN = 3;
 export function Welcome({ chosen, onSay }: Props) {
   const { t, i18n } = useTranslation(['chat', 'common']);
   const examples = useWorld((world) => world.info?.examples ?? NO_EXAMPLES);
+  const labels = useWorld((world) => world.info?.shown_examples ?? NO_EXAMPLES);
   const tour = useWorld((world) => world.info?.tour ?? NO_EXAMPLES);
   const begin = useTour((state) => state.begin);
   const foreign = useWorld((world) => world.info?.offline_language ?? false) && !i18n.language.startsWith('en');
@@ -40,9 +41,9 @@ export function Welcome({ chosen, onSay }: Props) {
       <p>{t('emptyText')}</p>
       {foreign && <p>{t('speaksEnglish')}</p>}
       <ul className={css.examples}>
-        {examples.slice(0, SHOWN).map((example) => (
+        {examples.slice(0, SHOWN).map((example, index) => (
           <li key={example}>
-            <Button onPress={() => onSay(example)}>{example}</Button>
+            <Button onPress={() => onSay(example)}>{labels[index] ?? example}</Button>
           </li>
         ))}
       </ul>
