@@ -37,8 +37,8 @@ export interface Size {
 export interface Stage {
   browser: Browser;
   system: System;
-  /** A new page of a size, opened at a path such as `#/plan`; closed when the test ends. */
-  open: (size: Size, path?: string, dark?: boolean) => Promise<Page>;
+  /** A new page of a size, opened at a path such as `#/plan`, perhaps with what it kept; closed when the test ends. */
+  open: (size: Size, path?: string, dark?: boolean, prefs?: string) => Promise<Page>;
   /** What the server says under `/api/`. */
   get: <T>(path: string) => Promise<T>;
   close: () => Promise<void>;
@@ -56,7 +56,7 @@ export async function startStage(options: readonly string[] = [], program: Progr
   return {
     browser,
     system,
-    open: async (viewport, path = '', dark = false) => {
+    open: async (viewport, path = '', dark = false, prefs = '') => {
       const context = await browser.newContext({
         viewport,
         colorScheme: dark ? 'dark' : 'light',
@@ -67,6 +67,7 @@ export async function startStage(options: readonly string[] = [], program: Progr
         serviceWorkers: 'block',
       });
       context.setDefaultTimeout(PATIENCE_MS);
+      if (prefs) await context.addInitScript((kept) => localStorage.setItem('parley.prefs', kept), prefs);
       const page = await context.newPage();
       watch(page, context);
       await page.goto(system.address + path);
@@ -148,16 +149,25 @@ interface Axe {
   run: (where: Document, options: object) => Promise<{ violations: { id: string; nodes: { html: string }[] }[] }>;
 }
 
+/** Rules about colours, which take most of the time, those about all else, or both. */
+export type Rules = 'all' | 'colours' | 'all else';
+const COLOURS = ['color-contrast', 'link-in-text-block'];
+
 /** What keeps people from using the page as it is now, by the rules of WCAG 2.2 AA and good practice. */
-export async function barriers(page: Page): Promise<string[]> {
-  await page.evaluate(axe);
-  return page.evaluate(async () => {
-    const runner = (window as unknown as { axe: Axe }).axe;
-    const runOnly = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
-    // Behind an open box the page is out of reach, so what a whole page must have is looked for only without one.
-    const enabled = document.querySelector('[role="dialog"], [role="alertdialog"]') === null;
-    const rules = Object.fromEntries(['landmark-one-main', 'page-has-heading-one'].map((rule) => [rule, { enabled }]));
-    const result = await runner.run(document, { runOnly, rules });
-    return result.violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(' | ')}`);
-  });
+export async function barriers(page: Page, rules: Rules = 'all'): Promise<string[]> {
+  if (!(await page.evaluate(() => 'axe' in window))) await page.evaluate(axe);
+  return page.evaluate(
+    async ({ which, colours }) => {
+      const runner = (window as unknown as { axe: Axe }).axe;
+      const tags = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
+      // Behind an open box the page is out of reach, so what a whole page must have is looked for only without one.
+      const enabled = document.querySelector('[role="dialog"], [role="alertdialog"]') === null;
+      const off = which === 'all else' ? colours.map((rule) => [rule, { enabled: false }] as const) : [];
+      const whole = ['landmark-one-main', 'page-has-heading-one'].map((rule) => [rule, { enabled }] as const);
+      const options = which === 'colours' ? { runOnly: colours } : { runOnly: tags, rules: Object.fromEntries([...whole, ...off]) };
+      const result = await runner.run(document, { ...options, resultTypes: ['violations'] });
+      return result.violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(' | ')}`);
+    },
+    { which: rules, colours: COLOURS },
+  );
 }
