@@ -617,6 +617,16 @@ async def test_a_no_to_a_robot_that_asked_nothing_holds_it(room: Room, words: st
     assert [command.command for command in order.system_cmd] == ["stop"]
 
 
+async def test_a_no_to_one_by_name_lets_the_other_drive_on(room: Room) -> None:
+    for robot in ("A", "B"):
+        room.observer.publish(topics.PLAN, running(robot))
+    await room.observer.until(lambda: {"A", "B"} <= set(room.observer.plans))
+    room.observer.say("B, never mind", "A", also=("B",))
+    (order,) = await room.orders()
+    assert order.targets == ("B",)
+    assert len(room.planner.orders) == 1
+
+
 @pytest.mark.parametrize("words", ["never mind", "leave it", "cancel", "no thanks"])
 async def test_a_no_to_which_one_is_meant_leaves_that_and_nothing_else(room: Room, words: str) -> None:
     asks = ChatAction(message_response="Which one?", choices=("left box", "right box"))

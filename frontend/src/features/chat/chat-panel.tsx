@@ -107,9 +107,14 @@ export function ChatPanel() {
       />
       {missions
         .filter((mission) => goesOn(mission) && isOf(mission, chosen))
-        .map((mission) => (
-          <MissionCard key={mission.id} mission={mission} isFolded={phone || mission.parts.every((part) => part.state !== 'asked')} />
-        ))}
+        .map((mission) => {
+          const asks = mission.parts.some((part) => part.state === 'asked');
+          return (
+            <div key={mission.id} className={css.mission} data-yields={phone && !asks}>
+              <MissionCard mission={mission} isFolded={phone || !asks} />
+            </div>
+          );
+        })}
       <Asks chosen={chosen} asked={askedHere} onChoose={choose} />
       {maySpeak && alone && <Tour robot={alone} asks={askedHere.length > 0} />}
       {maySpeak && <Composer chosen={chosen} answering={answer} lastSaid={lastSaid} input={input} />}

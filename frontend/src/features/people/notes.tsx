@@ -1,9 +1,12 @@
 import { useTranslation } from 'react-i18next';
 import { Link } from 'wouter';
 
+import { useLive, useWorld } from '@/live/store';
+import { useAsked } from '@/state/asked';
 import { useMe } from '@/state/me';
 import { usePrefs } from '@/state/prefs';
 import { Button } from '@/ui/button';
+import { useLayout } from '@/ui/use-media';
 
 import css from './people.module.css';
 
@@ -12,7 +15,9 @@ export function OpenNote() {
   const { t } = useTranslation(['people', 'common']);
   const open = useMe(({ session }) => session?.way === 'open');
   const { openNoted, set } = usePrefs();
-  if (!open || openNoted) return null;
+  const isUrgent = useIsUrgent();
+  const isSmall = useLayout() === 'phone';
+  if (!open || openNoted || (isSmall && isUrgent)) return null;
   return (
     <div className={css.note}>
       <p>
@@ -21,6 +26,15 @@ export function OpenNote() {
       <Button onPress={() => set({ openNoted: true })}>{t('understood')}</Button>
     </div>
   );
+}
+
+/** Whether what robots wait for needs the room of a small screen. */
+function useIsUrgent(): boolean {
+  const asks = useAsked().length > 0;
+  const proposes = useWorld((world) => Object.keys(world.proposals).length > 0);
+  const stands = useWorld((world) => Object.values(world.robots).some((robot) => robot.state === 'stopped'));
+  const isLost = useLive((live) => live.connection === 'lost');
+  return asks || proposes || stands || isLost;
 }
 
 /** Says why so little can be done. */

@@ -114,12 +114,13 @@ function PlanOf({ plan }: { plan: PlanView }) {
 
 /** What the robot does with others: all that goes on, or else what ended last. */
 function Together({ robot }: { robot: string }) {
-  const isBeside = useContext(Beside); // then the conversation shows it
+  const isBeside = useContext(Beside); // then the conversation shows what goes on
   const missions = useWorld((world) => world.missions);
   const own = missions.filter((mission) => isOf(mission, [robot]));
   const going = own.filter(goesOn);
+  if (isBeside && going.length > 0) return null;
   return (going.length > 0 ? going : own.slice(-1)).map((mission) => (
-    <MissionCard key={mission.id} mission={mission} isFolded={isBeside || !goesOn(mission)} />
+    <MissionCard key={mission.id} mission={mission} isFolded={!goesOn(mission)} />
   ));
 }
 

@@ -231,7 +231,7 @@ class ChatInterface(Node):
         refuses = lets_go or self._says_no(said.message, control)
         called = self._called_off(said) if calls else []
         hear: list[tuple[str, ChatFeedback | None]] = []
-        for target in self._meant(said, control, calls=calls):
+        for target in self._meant(said, control, calls=calls, refuses=refuses):
             question = self._questions.newest(target) if said.type == "response" else None
             offered = self._offered.newest(target) is not None and question is None
             wanted_back = question is None and not offered and self._gives_up(target, said, control)
@@ -328,12 +328,14 @@ class ChatInterface(Node):
         if not calls_to_stop(said.message):
             self._say(said.targets, texts.ONLY_LOOKS, "error", said.id)
             return
-        for target in self._meant(said, None, calls=True):
+        for target in self._meant(said, None, calls=True, refuses=False):
             self._control(target, "stop", said)
 
-    def _meant(self, said: ChatInput, control: Control | None, *, calls: bool) -> list[str]:
+    def _meant(self, said: ChatInput, control: Control | None, *, calls: bool, refuses: bool) -> list[str]:
         """Whom a message is for; a call to stop also for those under way whom its words call."""
         targets = self._addressed(said)
+        if control is None and refuses and not calls:  # "A, never mind"
+            return self._presence.named_in(said.message) or targets
         if control is not None:
             return self._presence.meant_by(said.message, control) or targets
         return list(dict.fromkeys((*targets, *(self._called_off(said) if calls else ()))))
