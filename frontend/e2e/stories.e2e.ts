@@ -60,6 +60,15 @@ describe.skipIf(!hasBrowser)('an operator', () => {
     await choices.getByRole('button', { name: 'small sofa' }).click();
     await page.getByText('I will go to the small sofa').waitFor();
     expect(await choices.count()).toBe(0);
+    await say(page, 'never mind');
+    await page.getByText('I have stopped. Say “carry on” when I should go on.').waitFor();
+    await say(page, 'drive to the sofa');
+    await choices.waitFor();
+    await say(page, 'leave it');
+    await page.getByText('All right, then I leave it.').waitFor();
+    await say(page, 'cancel everything');
+    await page.goto(`${stage.system.address}#/log`);
+    await page.getByRole('heading', { name: 'Go to the sofa.' }).first().waitFor(); // not what was tapped
   });
 
   it('keeps a round under a name, runs it by that name without one of its parts, and by a tap', async () => {

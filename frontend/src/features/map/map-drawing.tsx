@@ -8,7 +8,7 @@ import { nameOf, type Candidates, type Mark } from './marks';
 import { PlaceMarks } from './place-marks';
 import type { Trails } from './use-trails';
 import type { Way as Trial } from './use-way';
-import { bounds, boxOf, boxOfThing, roomAt, roomForLabels, roomLabel, textsOf, toScreen, type Label, type Place, type Size, type Viewport } from './viewport';
+import { boxOf, boxOfThing, extentOf, roomAt, roomForLabels, roomLabel, textsOf, toScreen, type Label, type Place, type Size, type Viewport } from './viewport';
 
 export interface Rover {
   name: string;
@@ -95,7 +95,7 @@ export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, tr
         ))}
       </g>
       <PlaceMarks things={map.objects} marked={marked?.kind === 'thing' ? marked.thing : null} view={view} size={size} />
-      <Labels map={map} things={map.objects} rooms={map.rooms} candidates={candidates} rovers={rovers} view={view} size={size} robotPx={robotPx} />
+      <Labels things={map.objects} rooms={map.rooms} candidates={candidates} rovers={rovers} view={view} size={size} robotPx={robotPx} />
       {rovers.map((rover) => {
         const at = toScreen(view, size, rover.pose);
         const heading = (-(rover.pose.yaw ?? 0) * 180) / Math.PI;
@@ -156,7 +156,6 @@ function Way({ rover, showScan }: { rover: Rover; showScan: boolean }) {
 }
 
 interface LabelsProps {
-  map: MapInfo;
   rooms: readonly MapRoom[];
   candidates: Candidates;
   things: readonly MapThing[];
@@ -166,20 +165,20 @@ interface LabelsProps {
   robotPx: number;
 }
 
-function Labels({ map, things, rooms, candidates, rovers, view, size, robotPx }: LabelsProps) {
+function Labels({ things, rooms, candidates, rovers, view, size, robotPx }: LabelsProps) {
   const robots = rovers.map((rover): Label => {
     const at = toScreen(view, size, rover.pose);
     return { id: `robot ${rover.name}`, texts: rover.title ? [rover.title, rover.name] : [rover.name], at: { x: at.x, y: at.y + robotPx + LABEL_BELOW_PX / 2 } };
   });
-  const { from, to } = bounds(map);
-  const edge: readonly Corner[] = [[from.x, from.y], [to.x, to.y]];
   const boxes = things.map((thing) => boxOfThing(thing, view, size));
+  const around = extentOf(boxes);
   const named = things.map((thing, index): Label => {
     const number = candidates.get(thing.id)?.number;
-    const texts = number ? [`${number}  ${nameOf(thing)}`, `${number}`] : textsOf(thing, view.scale);
-    const around = roomAt(rooms, thing)?.corners ?? edge; // over walls nothing is written
+    const isOnly = !things.some((other) => other !== thing && other.kind === thing.kind);
+    const texts = number ? [`${number}  ${nameOf(thing)}`, `${number}`] : textsOf(thing, view.scale, isOnly);
+    const room = roomAt(rooms, thing); // over walls nothing is written
     const [id, isInside] = number ? [`candidate ${thing.id}`, true] : [`thing ${thing.id}`, false];
-    return { id, texts, at: toScreen(view, size, thing), names: boxes[index], isInside, within: boxOf(around, view, size) };
+    return { id, texts, at: toScreen(view, size, thing), names: boxes[index], isInside, within: room ? boxOf(room.corners, view, size) : around };
   });
   const large = rooms.map((room) => roomLabel(room, things, view, size));
   const isFirst = ({ id }: Label) => id.startsWith('candidate');

@@ -110,8 +110,9 @@ describe('labels on a map', () => {
 
   it('are names while the map is small, and what describes a thing when it is larger', () => {
     const [box] = mapInfo.objects;
-    const texts = (description: string, scale: number) => box && textsOf({ ...box, description }, scale);
+    const texts = (description: string, scale: number, isOnly = true) => box && textsOf({ ...box, description }, scale, isOnly);
     expect(texts('red box', 20)).toEqual(['red box', 'box']);
+    expect(texts('very large red storage box', 20, false)).toEqual(['very large red storage box']);
     expect(texts('box by the front door', 20)).toEqual(['box']);
     expect(texts('box by the front door', 100)).toEqual(['box by the front door', 'box']);
   });

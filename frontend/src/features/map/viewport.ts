@@ -88,12 +88,15 @@ const NAME_LETTERS = 14;
 /** Kind of what is nothing but a place with a name. */
 const NAMED = 'place';
 
-/** What a thing may be called on the map, the best first: its own name, or else what kind of thing it is. */
-export const textsOf = ({ description, kind }: MapThing, scale: number): readonly string[] => {
+/**
+ * What a thing may be called on the map, the best first: its own name, or else what kind of thing it is.
+ * @param isOnly Whether nothing else is of its kind: of things with names the kind alone tells none from another.
+ */
+export const textsOf = ({ description, kind }: MapThing, scale: number, isOnly: boolean): readonly string[] => {
   const sort = kind === NAMED ? '' : kind;
-  return [description, sort]
-    .filter((name, index) => name && (index > 0 || !sort || scale >= DESCRIBING_SCALE || name.length <= NAME_LETTERS))
-    .map((name) => name.replaceAll('_', ' '));
+  const isName = !sort || description.length <= NAME_LETTERS || description.toLowerCase().endsWith(sort.toLowerCase());
+  const named = isName || scale >= DESCRIBING_SCALE ? [description] : [];
+  return [...named, ...(isName && description && !isOnly ? [] : [sort])].filter(Boolean).map((name) => name.replaceAll('_', ' '));
 };
 
 /** Parts of a room's width and depth. */
@@ -199,6 +202,14 @@ export function boxOfThing(thing: MapThing, view: Viewport, size: Size): Box {
   const { x, y } = toScreen(view, size, thing);
   return around({ x, y }, (thing.width / 2) * view.scale, thing.height * view.scale);
 }
+
+/** What things take up together: around that may be walls. */
+export const extentOf = (boxes: readonly Box[]): Box => ({
+  left: Math.min(...boxes.map(({ left }) => left)),
+  right: Math.max(...boxes.map(({ right }) => right)),
+  top: Math.min(...boxes.map(({ top }) => top)),
+  bottom: Math.max(...boxes.map(({ bottom }) => bottom)),
+});
 
 /** Where in a room its name lies over no thing, or over less, the middle and what is near to it first. */
 export function freeIn(room: MapRoom, things: readonly MapThing[], scale: number): readonly Place[] {
