@@ -37,8 +37,10 @@ def done(said: str, catalogue: tuple[ActionInfo, ...] = ABLE, memory: tuple[Memo
     ("said", "deeds"),
     [
         ("How many people are in the yard?", "drive_to yard, tally people"),
-        ("What is the largest item in the yard?", "look What is the largest item in the yard"),
+        ("What is the largest item in the yard?", "look what is the largest item in the yard"),
         ("who is in the yard", "look who is in the yard"),
+        ("of the people in the yard, how many are sitting?", "drive_to yard, tally people sitting"),
+        ("go to the yard and answer Kim's question", "drive_to yard, reply"),
         ("go to the yard and tell me how many people are sitting", "drive_to yard, tally people sitting"),
         ("find someone in the yard and answer a question", "drive_to yard, search someone, reply"),
         ("answer a question for the girl in the yard", "drive_to yard, reply"),

@@ -19,6 +19,7 @@ _AT = frozenset(
 )
 """Prepositions that say where something is, and not where to."""
 _TOLD_OF = frozenset({"what", "which", "who", "how", "where", "if", "whether"})
+_QUESTION = frozenset({"question", "questions"})
 _NUMBERS = frozenset({("number", "of"), ("amount", "of")})
 _BEING = frozenset({"is", "are", "there", "'s", "do", "does", "you", "see"})
 _JOINED = 2
@@ -35,6 +36,8 @@ def retyped(wish: Wish, lexicon: Lexicon) -> Wish:
         return _seen(wish) if wish.has("K") else _looked_at(wish)
     if wish.frame in ("FIND", "GIVE", "BRING"):
         wish = _met(wish, lexicon)
+    if wish.frame == "ANSWER":
+        return replace(wish, fillers=tuple(one for f in wish.fillers for one in _asked_by(f, lexicon)))
     if wish.frame == "WAIT" and wish.has("L") and not wish.has("DU"):
         return replace(_renamed(wish, "L", "G", list(wish.all("L"))), frame="GO")  # "stop at the gate"
     if wish.frame == "GUIDE" and not wish.has("T"):
@@ -53,6 +56,17 @@ def retyped(wish: Wish, lexicon: Lexicon) -> Wish:
     if wish.frame == "BRING" and not wish.has("RG") and wish.verb.split(" ")[0] in _TAKING:
         return replace(wish, frame="TAKE")
     return wish
+
+
+def _asked_by(filler: Filler, lexicon: Lexicon) -> tuple[Filler, ...]:
+    """Whose question it is; nothing of a filler that only says that it is one: "their question"."""
+    rest = [word for word in filler.words if word not in lexicon.classes["determiners"] | _QUESTION]
+    if filler.role not in "XT" or (rest and not {*filler.words} & _QUESTION):
+        return (filler,)
+    if not rest or rest[-1] not in ("'s", "’s", "'"):
+        return () if not rest else (filler,)
+    name, text = tuple(rest[:-1]), filler.text.partition("'")[0].partition("’")[0]
+    return (Filler("R", filler.start, filler.end, len(name) - 1, name, filler.share, text),) if name else ()
 
 
 def _looked_at(wish: Wish) -> Wish:

@@ -50,7 +50,10 @@ def sight_asked_for(
     if start is None or len(names) != 1 or len(names[0].things) != 1:
         return None
     said = words if words[0] in _OF else words[start:]
-    start = 0 if said == words else start
+    if words[start : start + 2] == ("how", "many"):  # "of the people in the hall, how many are sitting"
+        at = next((n for n in range(1, start) if words[n] in lexicon.classes["prepositions"]), start)
+        said = (*words[start : start + 2], *(words[1:at] if words[0] == "of" else ()), *words[start + 2 :])
+    start = 0 if words[0] in _OF else start
     if len(said) < _FEWEST or _is_told(names[0], situation):
         return None
     about = {stem(word) for word in said} - {stem(word) for word in names[0].words}
@@ -63,6 +66,7 @@ def sight_asked_for(
     if not seen or elsewhen or (said[0] == "how" and not counts):
         return None
     said_as = situation.message[spoken[start].start : spoken[-1].end]
+    said_as = said_as[:1].lower() + said_as[1:]
     asked = Filler("K", start, len(words), len(said) - 1, said, 1.0, said_as)
     wish = retyped(Wish("LOOK", start, "tell", (asked,), 1.0, "agrees"), lexicon)
     if wish.frame != "COUNT":
@@ -70,7 +74,12 @@ def sight_asked_for(
     place = ("at", *names[0].words)
     counted, where = wish.fillers[0], Filler("L", len(words), len(words) + 1, len(place) - 1, place)
     end = next((at for at, word in enumerate(counted.words) if word in names[0].words), len(counted.words))
-    while end and counted.words[end - 1] in lexicon.classes["prepositions"] | lexicon.classes["determiners"]:
+    led = end < len(counted.words)  # by "on the": what is counted ends before that
+    while (
+        led
+        and end
+        and counted.words[end - 1] in lexicon.classes["prepositions"] | lexicon.classes["determiners"]
+    ):
         end -= 1
     bare = counted.words[:end]
     if not bare:
