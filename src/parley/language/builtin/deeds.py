@@ -62,7 +62,7 @@ class Builder(Doing):
             and all(map(self._is_place, values["T"].things or [None]))
         ):
             wish, values = replace(wish, frame="GO"), {"G": values["T"]}  # "take aisle 3": that way
-        if wish.frame == "LOOK" and "T" not in values and "L" in values and values["L"].each:
+        if wish.frame == "LOOK" and {*values} == {*"LK"} and values["L"].each:
             values["T"] = values.pop("L")  # places that are looked at for something: each is looked at
         several = [value for value in values.values() if value.each]
         if len(several) > 1 or (several and (wish.frame in _ONCE or {*"LS"} & {*values})):
