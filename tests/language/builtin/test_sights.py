@@ -8,6 +8,7 @@ from parley.language.builtin.decision import Answer, Ask, Do
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.messages.memory import MemoryEntry
 from parley.messages.status import ActionInfo
+from parley.world.object_map import MapObject
 from tests.language.builtin.worlds import CATALOGUE, action, situation
 
 ENGINE = BuiltinLanguage()
@@ -64,6 +65,8 @@ def test_what_is_asked_for_is_seen_met_and_told(said: str, deeds: str) -> None:
         "where is the largest item in the yard",
         "who told you to go to the yard",
         "how far is the yard",
+        "how many people live in the yard",
+        "never mind",
     ],
 )
 def test_a_question_about_anything_else_moves_nothing(said: str) -> None:
@@ -79,3 +82,11 @@ def test_a_name_that_may_be_a_thing_is_asked_about_and_what_cannot_be_told_is_no
     assert done("bring Tobi to the yard") == Ask.__name__
     plain = tuple(one for one in ABLE if one.name != "inform")
     assert done("tell the man in the yard the time", plain) == Ask.__name__
+
+
+def test_a_room_is_gone_to_and_who_cannot_count_looks() -> None:
+    able = tuple(one for one in ABLE if one.name != "tally")
+    rooms = (MapObject("hall", "hall", 3.0, 3.0),)
+    decision = ENGINE.decide(situation("how many people are in the hall?", catalogue=able, rooms=rooms))
+    assert isinstance(decision, Do)
+    assert [deed.skill.action.name for deed in decision.deeds] == ["drive_to", "look"]

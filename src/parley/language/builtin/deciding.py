@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+from parley.gate.assent import gives_up
 from parley.language.base import Situation
 from parley.language.builtin.addressing import addressed
 from parley.language.builtin.answers import answer, look_asked_for
@@ -107,11 +108,16 @@ def _looking(
 ) -> Do | Ask | None:
     """A look where only that tells: what is there is looked at, how something is is offered to be."""
     names = named(tokens, situation.objects, lexicon)
-    sight = sight_asked_for(situation, tokens, names, lexicon)
+    rooms = [] if names else named(tokens, situation.rooms, lexicon)
+    sight = sight_asked_for(situation, tokens, names or rooms, lexicon, counting="COUNT" in skills)
     if sight is not None and sight.frame in skills and not situation.queue:
-        builder = Builder(situation, skills, lexicon, ())
+        builder, words = Builder(situation, skills, lexicon, ()), rooms[0].words if rooms else ()
+        there = Filler("G", 0, len(words), len(words) - 1, words)
+        way = builder.deeds(Wish("GO", 0, "go", (there,), 1.0, "agrees")) if rooms else []
         deeds = builder.deeds(sight)
-        return deeds if isinstance(deeds, Ask) else Do(tuple(deeds), tuple(builder.notes), (), ())
+        if isinstance(way, Ask) or isinstance(deeds, Ask):
+            return way if isinstance(way, Ask) else deeds if isinstance(deeds, Ask) else None
+        return Do((*way, *deeds), tuple(builder.notes), (), ())
     order = look_asked_for(tokens, names)
     made = again(order) if order else None
     if not isinstance(made, Do) or {*made.robots} - {situation.robot}:
@@ -294,6 +300,8 @@ def _without_order(
     if "question" in reading.acts:
         before, _ = policy.spoken_of(situation, (), lexicon)
         return answer(situation, reading, lexicon, reader, before)
+    if not situation.question and situation.dialogue.asked is None and gives_up(situation.message):
+        return Answer("All right.")
     if "need" in reading.acts:
         return Ask("What can I do about it? Tell me what to bring, or where to go.")
     if reading.acts == {"social"}:

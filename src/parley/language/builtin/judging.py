@@ -8,9 +8,11 @@ from typing import Final, Literal
 
 from parley.language.builtin.lexicon import lexicon, stem
 
-__all__ = ["Asked", "asked"]
+__all__ = ["OPEN", "Asked", "asked"]
 
-_ASKING: Final = frozenset({"if", "whether", "that", "what", "how"})
+_ASKING: Final = frozenset({"if", "whether", "that", "what", "which", "who", "how"})
+OPEN: Final = frozenset({"what", "which", "who", "how"})
+"""What asks how something is, and not whether something is so."""
 _THERE: Final = frozenset(
     {"there", "here", "visible", "present", "still", "in", "on", "at", "near", "by", "under", "behind"}
 )
@@ -44,12 +46,14 @@ def asked(request: str) -> Asked:
         Asked(kind='thing', thing=('suspicious', 'boxes'), place=('area', '1'), holds=True, unwanted=True)
         >>> asked("the shelf for my key").unwanted
         False
+        >>> asked("how many people are in the yard").kind
+        'state'
         >>> asked("whether the yard is clear")
         Asked(kind='room', thing=(), place=('the', 'yard'), holds=True, unwanted=False)
     """
     words = tuple(request.lower().replace("'s ", " is ").replace("’s ", " is ").rstrip(" .?!").split())
     if words[:1] and words[0] in _ASKING:
-        return _stated(words[1:]) if words[0] != "what" else Asked("state")
+        return Asked("state") if words[0] in OPEN else _stated(words[1:])
     if words[:1] == ("there",) and {*words[1:2]} & _BE:
         return _stated(words)
     at = next((n for n in range(len(words) - 1) if words[n] == "for"), None)

@@ -8,7 +8,7 @@ from typing import Final
 
 from parley.errors import LanguageError
 from parley.language.base import InspectionReport
-from parley.language.builtin.judging import Asked, asked
+from parley.language.builtin.judging import OPEN, Asked, asked
 from parley.language.builtin.lexicon import lexicon, stem
 from parley.language.builtin.saying import as_said, with_article
 from parley.language.builtin.things import head_of, link
@@ -102,8 +102,8 @@ def inspect(image: CameraImage, request: str, known: ObjectMap | None = None) ->
         return _room(scene, wish)
     if wish.kind == "thing" and (wish.thing or wish.place):
         return _thing(scene, wish, as_said(" ".join(wish.thing), request))
-    starts = request.lower().startswith("what")
-    statement = "" if starts else request.partition(" ")[2]
+    stated = request.lower().split(" ")[0] not in OPEN
+    statement = request.partition(" ")[2] if stated else ""
     judge = f" Please look at the picture and judge whether {statement}." if statement else ""
     return InspectionReport(f"I looked.{scene.also}{judge}")
 

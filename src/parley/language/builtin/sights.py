@@ -25,12 +25,18 @@ _FEWEST: Final = 4
 _COURTESY: Final = frozenset({"please", "thanks", "robot"})
 _THEN: Final = frozenset(
     {"was", "were", "did", "had", "will", "would", "should", "does", "do", "can", "could"}
+    | {"live", "lives", "work", "works", "own", "owns", "belong", "belongs", "fit", "fits"}
 )
 """Words of a question about other times, or about what may be."""
 
 
 def sight_asked_for(
-    situation: Situation, tokens: Sequence[Token], names: Sequence[Named], lexicon: Lexicon
+    situation: Situation,
+    tokens: Sequence[Token],
+    names: Sequence[Named],
+    lexicon: Lexicon,
+    *,
+    counting: bool = True,
 ) -> Wish | None:
     """The look or the count that a question asks for; None for any that can be answered without.
 
@@ -41,6 +47,7 @@ def sight_asked_for(
         tokens: Of the message.
         names: What it names on the map.
         lexicon: Words.
+        counting: Whether the robot can count; else it looks how many there are.
     """
     spoken = [token for token in tokens if token.is_word]
     while spoken and spoken[-1].low in _COURTESY:
@@ -68,7 +75,8 @@ def sight_asked_for(
     said_as = situation.message[spoken[start].start : spoken[-1].end]
     said_as = said_as[:1].lower() + said_as[1:]
     asked = Filler("K", start, len(words), len(said) - 1, said, 1.0, said_as)
-    wish = retyped(Wish("LOOK", start, "tell", (asked,), 1.0, "agrees"), lexicon)
+    look = Wish("LOOK", start, "tell", (asked,), 1.0, "agrees")
+    wish = retyped(look, lexicon) if counting else look
     if wish.frame != "COUNT":
         return wish
     place = ("at", *names[0].words)
