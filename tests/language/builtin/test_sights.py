@@ -90,3 +90,9 @@ def test_a_room_is_gone_to_and_who_cannot_count_looks() -> None:
     decision = ENGINE.decide(situation("how many people are in the hall?", catalogue=able, rooms=rooms))
     assert isinstance(decision, Do)
     assert [deed.skill.action.name for deed in decision.deeds] == ["drive_to", "look"]
+
+
+def test_a_question_to_another_robot_moves_that_one_and_not_who_hears_it() -> None:
+    asked = situation("Bo, how many people are in the yard?", catalogue=ABLE, robots=("Ada", "Bo"))
+    decision = ENGINE.decide(asked)
+    assert isinstance(decision, Do) and decision.robots == ("Bo",)

@@ -109,15 +109,16 @@ def _looking(
     """A look where only that tells: what is there is looked at, how something is is offered to be."""
     names = named(tokens, situation.objects, lexicon)
     rooms = [] if names else named(tokens, situation.rooms, lexicon)
+    robots = addressed(situation, tokens, lexicon)
     sight = sight_asked_for(situation, tokens, names or rooms, lexicon, counting="COUNT" in skills)
-    if sight is not None and sight.frame in skills and not situation.queue:
+    if sight is not None and sight.frame in skills and not situation.queue and not isinstance(robots, Ask):
         builder, words = Builder(situation, skills, lexicon, ()), rooms[0].words if rooms else ()
         there = Filler("G", 0, len(words), len(words) - 1, words)
         way = builder.deeds(Wish("GO", 0, "go", (there,), 1.0, "agrees")) if rooms else []
-        deeds = builder.deeds(sight)
+        deeds = way if isinstance(way, Ask) else builder.deeds(sight)
         if isinstance(way, Ask) or isinstance(deeds, Ask):
-            return way if isinstance(way, Ask) else deeds if isinstance(deeds, Ask) else None
-        return Do((*way, *deeds), tuple(builder.notes), (), ())
+            return deeds if isinstance(deeds, Ask) else None
+        return Do((*way, *deeds), tuple(builder.notes), (), robots)
     order = look_asked_for(tokens, names)
     made = again(order) if order else None
     if not isinstance(made, Do) or {*made.robots} - {situation.robot}:

@@ -45,13 +45,9 @@ class Builder(Doing):
         if isinstance(times, Ask):
             return times
         wish = self._placed(self._told_apart(wish))
-        thing, words = wish.one("T"), self.lexicon.classes["pronouns"]
-        if (
-            wish.frame in (*HANDLED, "BRING")
-            and thing is not None
-            and {*thing.words} <= words
-            and self.in_hand
-        ):
+        thing, handles = wish.one("T"), wish.frame in (*HANDLED, "BRING")
+        spoken_of = thing is not None and {*thing.words} <= self.lexicon.classes["pronouns"]
+        if handles and spoken_of and self.in_hand is not None:
             self.last_thing = self.in_hand  # "take the box, go to the desk and put it there"
         values = self._values(wish)
         if isinstance(values, Ask):
@@ -115,17 +111,14 @@ class Builder(Doing):
 
     def _placed(self, wish: Wish) -> Wish:
         """With the place of who or what no map holds as a role of its own: "the cup on the desk"."""
-        goal = wish.one("G") if wish.frame == "GO" and "FIND" in self.skills else None
-        parts = self._standing(goal, "L") if goal is not None else ()
-        if parts and self.is_person(
-            [parts[0]], Value("", "")
-        ):  # "go to the girl in the hall": she is met there
-            wish = replace(wish, frame="FIND", fillers=(replace(parts[0], role="T"), parts[1]))
-        goal = wish.one("G") if wish.frame in ("BRING", "GIVE") and not wish.has("RL") else None
+        goal = wish.one("G") if wish.frame in ("GO", "BRING", "GIVE") and not wish.has("RL") else None
         parts = self._standing(goal, "L") if goal is not None else ()
         if parts and self.is_person([parts[0]], Value("", "")):  # "to Kim by the gate"
             rest = (filler for filler in wish.fillers if filler is not goal)
-            wish = replace(wish, fillers=(*rest, replace(parts[0], role="R"), parts[1]))
+            if wish.frame != "GO":
+                wish = replace(wish, fillers=(*rest, replace(parts[0], role="R"), parts[1]))
+            elif "FIND" in self.skills:  # who is gone to is met there
+                wish = replace(wish, frame="FIND", fillers=(*rest, replace(parts[0], role="T"), parts[1]))
         for about in _STANDING.get(wish.frame, "") if "GO" in self.skills else "":
             one, roles = wish.one(about), self.lexicon.frames[wish.frame].roles
             role = next((role for role in ("SL" if about == "T" else "L") if role in roles), "")

@@ -40,10 +40,8 @@ def doubt(
         return Ask(
             f"I do not understand “{' '.join(reading.left_over)}” in this. Can you say it in other words?"
         )
-    told = orders and all(
-        wish.frame in ("LOOK", "COUNT") and wish.has("TK") for wish in orders
-    )  # what is seen
-    unclear = {"alarm", "control"} | (set() if told else {"question"}) | (set() if idle else {"edit"})
+    seen = orders and all(wish.frame in ("LOOK", "COUNT") and wish.has("TK") for wish in orders)
+    unclear = {"alarm", "control"} | (set() if seen else {"question"}) | (set() if idle else {"edit"})
     if reading.acts & unclear:
         return Ask("I am not sure what you want me to do. Can you say one thing at a time?")
     if reading.unsteady:

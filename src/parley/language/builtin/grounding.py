@@ -320,11 +320,8 @@ class Grounder:
 
     def is_person(self, fillers: Sequence[Filler], value: Value) -> bool:
         """Whether somebody is meant: by a name, by what the map says, or by a word for people."""
-        if (
-            value is self.last_person
-            and fillers
-            and {*fillers[0].words} <= self.lexicon.classes["persons"] | _SEVERAL
-        ):
+        spoken_of = self.lexicon.classes["persons"] | _SEVERAL
+        if value is self.last_person and fillers and {*fillers[0].words} <= spoken_of:
             return True
         if value.things or not fillers:
             return bool(value.things) and all(one.class_name == "person" for one in value.things)

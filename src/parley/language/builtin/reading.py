@@ -262,8 +262,6 @@ def _wish(parse: Parse, verb: Verb, mine: list[Filler], lexicon: Lexicon) -> Wis
     while words and (words[0] in ("don't", "dont", "not", "never", "do") and len(words) > 1):
         words = words[1:]
     end, longer = _reach(parse, verb, lexicon)
-    inside = [f for f in mine if verb.end <= f.start < f.end <= end and f.role in "TXR"]
-    mine = [filler for filler in mine if filler not in inside]  # "a question" belongs to "answer"
     behind = tuple(token.low for token in parse.tokens[end : end + 2])
     if verb.frame == "GO" and behind in _TO_US and not any(filler.role == "G" for filler in mine):
         mine = [*(f for f in mine if f.start != end), Filler("G", end, end + 2, 1, behind, 1.0, "to me")]

@@ -113,9 +113,7 @@ def _is_somebody(wish: Wish, role: str, value: Value, grounder: Grounder) -> boo
     if value.things:
         return all(thing.description[:1].isupper() for thing in value.things)
     words = fillers[0].words if fillers else ()
-    if (
-        value is grounder.last_person
-        and {*words} <= grounder.lexicon.classes["pronouns"] | grounder.lexicon.classes["persons"]
-    ):
+    classes = grounder.lexicon.classes
+    if value is grounder.last_person and {*words} <= classes["pronouns"] | classes["persons"]:
         return True  # who was spoken of
     return len(words) == 1 and head not in grounder.lexicon.classes["pronouns"]
