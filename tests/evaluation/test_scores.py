@@ -131,3 +131,20 @@ def test_trying_a_failed_step_again_as_it_was_is_executable() -> None:
     assert isinstance(situation, ErrorSituation)
     assert executable(situation, answer(situation.failed_action, success=True)) is True
     assert executable(situation, answer(call("GetCoordinates"), success=True)) is False
+
+
+async def test_an_evaluation_ends_between_two_cases_of_an_engine_that_never_waits() -> None:
+    asked: list[str] = []
+
+    class Busy(BuiltinLanguage):
+        async def interpret(
+            self, situation: Situation, *, on_draft: DraftHandler | None = None
+        ) -> ChatAction:
+            asked.append(situation.message)
+            running.cancel()  # as Ctrl-C does
+            return answer()
+
+    running = asyncio.create_task(evaluate([one_case(GO)] * 50, Busy(), WallClock()))
+    with pytest.raises(asyncio.CancelledError):
+        await running
+    assert len(asked) == 1
