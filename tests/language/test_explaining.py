@@ -36,8 +36,9 @@ def test_clauses_what_they_want_and_what_is_done_are_told_in_order() -> None:
 
 
 def test_what_is_asked_is_told_with_the_words_that_are_doubtful() -> None:
-    told = explained("blorp, go to the shed")
-    assert ("doubtful", "blorp") in told
+    assert ("doubtful", "shed") in explained("shed go now the")
+    told = explained("to to the shed from please")
+    assert ("left over", "from") in told
     assert told[-1][0] == "ask" and "offered: GetCoordinates(target: shed)" in told[-1][1]
 
 

@@ -25,6 +25,11 @@ def test_a_steady_order_is_not_doubted_and_an_unsteady_one_is_asked_about_by_its
     assert asked is not None and "box" in asked.question
 
 
+def test_what_one_opener_alone_reads_otherwise_is_settled_by_most_of_them() -> None:
+    for text in ["peek into the cellar and report", "take the letter on the table down to Lena"]:
+        assert reading(text).unsteady == (), text
+
+
 def test_nonsense_is_not_steady() -> None:
     said = [
         "box the if turn",

@@ -3,43 +3,72 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
+
+import numpy as np
 
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.reading import Reading, read
 from parley.language.builtin.requests import requested
 from parley.language.builtin.spans import Parse, parse
-from parley.language.builtin.tagger import Tagger
+from parley.language.builtin.tagger import Scores, Tagger
 from parley.language.builtin.tokens import Token
 
 __all__ = ["steadily"]
 
 
 def steadily(tagger: Tagger, tokens: Sequence[Token], lexicon: Lexicon) -> tuple[Parse, Reading]:
-    """What words are and say, with those that would say something else behind a "please"."""
+    """What words are and say, with those that would say something else behind a "please".
+
+    If there are such, more openers are tried: the mean of all is what it says, if most of them say the same.
+    """
     words = [token.text for token in tokens]
-    found = requested(parse(tuple(tokens), tagger.tag(words)), lexicon)
-    reading = read(found, lexicon)
-    opener = "okay" if words[0].lower() == "please" else "please"
-    again = requested(parse((Token(opener, 0, 0), *tokens), tagger.tag([opener, *words])), lexicon)
-    other = _said(read(again, lexicon), lexicon, 1)
-    unsteady = sorted(_said(reading, lexicon, 0) ^ other)
+    plain = tagger.tag(words)
+    found, reading = _read(tokens, plain, lexicon)
+    polite = _behind(tagger, "okay" if words[0].lower() == "please" else "please", words)
+    said = [_said(reading, lexicon), _said(_read(tokens, polite, lexicon)[1], lexicon)]
+    if said[0] == said[1]:
+        return found, replace(reading, unsteady=())
+    more = [_behind(tagger, opener, words) for opener in ("now", "so", "robot")]
+    every = [plain, polite, *more]
+    said += [_said(_read(tokens, scores, lexicon)[1], lexicon) for scores in more]
+    settled, meant = _read(tokens, _mean(every), lexicon)
+    most = _said(meant, lexicon)
+    if sum(one == most for one in said) >= 4:
+        return settled, replace(meant, unsteady=())
+    unsteady = sorted(said[0] ^ said[1])
     unsure = dict.fromkeys(words for _, words, *_ in unsteady if words not in lexicon.classes["manner"])
     return found, replace(reading, unsteady=tuple(unsure))
 
 
-def _said(reading: Reading, lexicon: Lexicon, skipped: int) -> frozenset[tuple[int, str, str]]:
+def _read(tokens: Sequence[Token], scores: Scores, lexicon: Lexicon) -> tuple[Parse, Reading]:
+    found = requested(parse(tuple(tokens), scores), lexicon)
+    return found, read(found, lexicon)
+
+
+def _behind(tagger: Tagger, opener: str, words: Sequence[str]) -> Scores:
+    """The scores of words behind an opener, without its own."""
+    scores = tagger.tag([opener, *words])
+    cut = {field.name: getattr(scores, field.name)[1:] for field in fields(Scores)}
+    return Scores(**cut | {"arcs": np.delete(cut["arcs"], 1, axis=1)})
+
+
+def _mean(every: Sequence[Scores]) -> Scores:
+    return Scores(*(np.mean([getattr(one, field.name) for one in every], axis=0) for field in fields(Scores)))
+
+
+def _said(reading: Reading, lexicon: Lexicon) -> frozenset[tuple[int, str, str]]:
     """Where each verb stands, with its words and its frame; and of all that fills its roles."""
     small = lexicon.classes["prepositions"] | lexicon.classes["determiners"]
     found = set()
     for wish in reading.wishes:
-        found.add((wish.start - skipped, wish.verb, f"{wish.frame} {wish.negated}"))
+        found.add((wish.start, wish.verb, f"{wish.frame} {wish.negated}"))
         told = sorted((f for f in wish.fillers if f.role in "TL"), key=lambda filler: filler.start)
         for filler in wish.fillers:
             words = " ".join(word for word in filler.words if word not in small)
             if filler.role not in "AMTL" and words and words not in lexicon.classes["me"]:
-                found.add((wish.start - skipped, words, filler.role))
+                found.add((wish.start, words, filler.role))
         whole = " ".join(word for f in told for word in f.words if word not in small)
         if whole:
-            found.add((wish.start - skipped, whole, "T"))
+            found.add((wish.start, whole, "T"))
     return frozenset(found)
