@@ -41,6 +41,15 @@ def done(said: str, catalogue: tuple[ActionInfo, ...] = ABLE, memory: tuple[Memo
         ("What is the largest item in the yard?", "look what is the largest item in the yard"),
         ("who is in the yard", "look who is in the yard"),
         ("of the people in the yard, how many are sitting?", "drive_to yard, tally people sitting"),
+        ("how many people are lying in the yard?", "drive_to yard, tally people lying"),
+        ("from the yard, tell me how many people are standing", "drive_to yard, tally people standing"),
+        ("reveal to me the thinnest book on the desk", "look the thinnest book on the desk"),
+        (
+            "scan the things on the desk and let me know which is the heaviest",
+            "look which is the heaviest on the desk",
+        ),
+        ("let me know the pose of the person in the yard", "look the pose of the person in the yard"),
+        ("the desk please, what is the biggest object", "look what is the biggest object at the desk"),
         ("go to the yard and answer Kim's question", "drive_to yard, reply"),
         ("go to the yard and tell me how many people are sitting", "drive_to yard, tally people sitting"),
         ("find someone in the yard and answer a question", "drive_to yard, search someone, reply"),
@@ -67,6 +76,7 @@ def test_what_is_asked_for_is_seen_met_and_told(said: str, deeds: str) -> None:
         "how far is the yard",
         "how many people live in the yard",
         "never mind",
+        "name the tallest thing in the yard and bring it here",
     ],
 )
 def test_a_question_about_anything_else_moves_nothing(said: str) -> None:

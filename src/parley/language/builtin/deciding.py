@@ -76,6 +76,8 @@ def decide(
     made = _alone(situation, parts, skills, lexicon, reader)
     if isinstance(made, Answer) and not made.sources and "question" in whole.acts and not situation.question:
         made = _looking(situation, tokens, skills, lexicon, again) or made
+    if isinstance(made, Ask) and not (made.choices or made.alarms or made.where or situation.question):
+        made = _sight(situation, tokens, skills, lexicon) or made
     if isinstance(made, Ask) and (promise := policy.promised(situation, lexicon, again)) is not None:
         return promise
     made = policy.afterwards(made, situation, whole, tokens, lexicon)
@@ -107,23 +109,33 @@ def _looking(
     situation: Situation, tokens: Sequence[Token], skills: Skills, lexicon: Lexicon, again: Again
 ) -> Do | Ask | None:
     """A look where only that tells: what is there is looked at, how something is is offered to be."""
-    names = named(tokens, situation.objects, lexicon)
-    rooms = [] if names else named(tokens, situation.rooms, lexicon)
-    robots = addressed(situation, tokens, lexicon)
-    sight = sight_asked_for(situation, tokens, names or rooms, lexicon, counting="COUNT" in skills)
-    if sight is not None and sight.frame in skills and not situation.queue and not isinstance(robots, Ask):
-        builder, words = Builder(situation, skills, lexicon, ()), rooms[0].words if rooms else ()
-        there = Filler("G", 0, len(words), len(words) - 1, words)
-        way = builder.deeds(Wish("GO", 0, "go", (there,), 1.0, "agrees")) if rooms else []
-        deeds = way if isinstance(way, Ask) else builder.deeds(sight)
-        if isinstance(way, Ask) or isinstance(deeds, Ask):
-            return deeds if isinstance(deeds, Ask) else None
-        return Do((*way, *deeds), tuple(builder.notes), (), robots)
-    order = look_asked_for(tokens, names)
+    sight = _sight(situation, tokens, skills, lexicon)
+    if sight is not None:
+        return sight
+    order = look_asked_for(tokens, named(tokens, situation.objects, lexicon))
     made = again(order) if order else None
     if not isinstance(made, Do) or {*made.robots} - {situation.robot}:
         return None
     return Ask("I cannot tell that from here. Shall I go and look?", offer=made.deeds)
+
+
+def _sight(
+    situation: Situation, tokens: Sequence[Token], skills: Skills, lexicon: Lexicon
+) -> Do | Ask | None:
+    """The look that is asked for, with the way there."""
+    names = named(tokens, situation.objects, lexicon)
+    rooms = [] if names else named(tokens, situation.rooms, lexicon)
+    robots = addressed(situation, tokens, lexicon)
+    sight = sight_asked_for(situation, tokens, names or rooms, lexicon, counting="COUNT" in skills)
+    if sight is None or sight.frame not in skills or situation.queue or isinstance(robots, Ask):
+        return None
+    builder, words = Builder(situation, skills, lexicon, ()), rooms[0].words if rooms else ()
+    there = Filler("G", 0, len(words), len(words) - 1, words)
+    way = builder.deeds(Wish("GO", 0, "go", (there,), 1.0, "agrees")) if rooms else []
+    deeds = way if isinstance(way, Ask) else builder.deeds(sight)
+    if isinstance(way, Ask) or isinstance(deeds, Ask):
+        return deeds if isinstance(deeds, Ask) else None
+    return Do((*way, *deeds), tuple(builder.notes), (), robots)
 
 
 _SENTENCE = re.compile(r"\w[^.,;:!?]*")

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import replace
 from typing import Final
 
 from parley.language.base import Situation
+from parley.language.builtin.amounts import amount_of
 from parley.language.builtin.fillers import Filler
 from parley.language.builtin.grounding import is_somebody
 from parley.language.builtin.lexicon import Lexicon, stem
@@ -19,6 +20,7 @@ __all__ = ["sight_asked_for"]
 
 _ASKING: Final = frozenset({"what", "which", "who", "how", "whats"})
 _THINGS: Final = frozenset({"object", "item", "thing", "article", "colour", "color", "pose", "gender"})
+_FEATURES: Final = frozenset({"number", "amount", "name", "pose", "gender", "colour", "color"})
 _OF: Final = frozenset({"of", "on", "in", "from"})
 """How a question begins that says first where: "of the boxes on the desk, which is the largest?"."""
 _FEWEST: Final = 4
@@ -28,6 +30,8 @@ _THEN: Final = frozenset(
     | {"live", "lives", "work", "works", "own", "owns", "belong", "belongs", "fit", "fits"}
 )
 """Words of a question about other times, or about what may be."""
+_MORE: Final = frozenset({"and", "then", "but", "or", "if"})
+"""What leads to something else that is wanted."""
 
 
 def sight_asked_for(
@@ -38,7 +42,7 @@ def sight_asked_for(
     *,
     counting: bool = True,
 ) -> Wish | None:
-    """The look or the count that a question asks for; None for any that can be answered without.
+    """The look or the count that a question, or an order to tell, asks for; None if none is needed.
 
     It names one place of the map, and asks how many there are, which one of the things there it is, or who.
 
@@ -53,47 +57,104 @@ def sight_asked_for(
     while spoken and spoken[-1].low in _COURTESY:
         spoken.pop()
     words = tuple(token.low for token in spoken)
-    start = next((at for at, word in enumerate(words) if word in _ASKING), None)
-    if start is None or len(names) != 1 or len(names[0].things) != 1:
+    if len(names) != 1 or len(names[0].things) != 1 or _is_told(names[0], situation):
         return None
-    said = words if words[0] in _OF else words[start:]
-    if words[start : start + 2] == ("how", "many"):  # "of the people in the hall, how many are sitting"
-        at = next((n for n in range(1, start) if words[n] in lexicon.classes["prepositions"]), start)
-        said = (*words[start : start + 2], *(words[1:at] if words[0] == "of" else ()), *words[start + 2 :])
-    start = 0 if words[0] in _OF else start
-    if len(said) < _FEWEST or _is_told(names[0], situation):
+    start, place = _asked_from(words, lexicon), names[0].words
+    called = {word for robot in situation.robots for word in robot.lower().split()}
+    if start is None or not _only_leads(words[:start], {*place} | called, lexicon) or len(words) < _FEWEST:
         return None
-    about = {stem(word) for word in said} - {stem(word) for word in names[0].words}
-    counts = said[:2] == ("how", "many") or {*said[:5]} >= {"number", "of"}
-    who = said[0] == "who" and said[1] in ("is", "'s", "’s") and said[2] in lexicon.classes["prepositions"]
-    seen = who or (said[0] != "who" and (counts or about & _THINGS or any(map(is_somebody, about))))
-    elsewhen = {*said} & (
-        _THEN | lexicon.classes["clock"] | lexicon.classes["mental"] | lexicon.classes["me"]
-    )
-    if not seen or elsewhen or (said[0] == "how" and not counts):
+    said, counts = words[start:], words[start : start + 2] == ("how", "many")
+    counts = counts or {*said[:5]} >= {"number", "of"}
+    text = situation.message[spoken[start].start : spoken[-1].end]
+    if not _holds(said, place):  # "from the yard, tell me how many people are sitting"
+        what = words[1:start] if counts and words[0] == "of" else ()
+        what = what[: next((n for n, word in enumerate(what) if word in lexicon.classes["prepositions"]), 0)]
+        said = (*said[:2], *what, *said[2:], *_led_to(words, place, lexicon))
+        text = " ".join(said)
+    if not _is_seen(said, place, lexicon) or (said[0] == "how" and not counts):
         return None
-    said_as = situation.message[spoken[start].start : spoken[-1].end]
-    said_as = said_as[:1].lower() + said_as[1:]
+    said_as = text[:1].lower() + text[1:]
     asked = Filler("K", start, len(words), len(said) - 1, said, 1.0, said_as)
     look = Wish("LOOK", start, "tell", (asked,), 1.0, "agrees")
     wish = retyped(look, lexicon) if counting else look
-    if wish.frame != "COUNT":
-        return wish
-    place = ("at", *names[0].words)
-    counted, where = wish.fillers[0], Filler("L", len(words), len(words) + 1, len(place) - 1, place)
-    end = next((at for at, word in enumerate(counted.words) if word in names[0].words), len(counted.words))
+    return wish if wish.frame != "COUNT" else _counted(wish, place, len(words), lexicon)
+
+
+def _asked_from(words: Sequence[str], lexicon: Lexicon) -> int | None:
+    """Where what is asked begins: at its first question word, or at what is to be told of."""
+    start = next((at for at, word in enumerate(words) if word in _ASKING), None)
+    if start is not None or not {*words} & lexicon.classes["telling"]:
+        return start
+    for at, word in enumerate(words):
+        if _is_extreme(word) or (word in _FEATURES and words[at + 1 : at + 2] == ("of",)):
+            while at and (words[at - 1] in lexicon.classes["determiners"] or amount_of(words[at - 1 : at])):
+                at -= 1
+            return at
+    return None
+
+
+def _is_extreme(word: str) -> bool:
+    """Whether a word says that something has most of what only a look tells: not the nearest one."""
+    return len(word) > 5 and word.endswith("est") and word not in _NOT_EXTREME
+
+
+_NOT_EXTREME: Final = frozenset({
+    "nearest", "closest", "furthest", "farthest", "latest", "forest", "request", "interest", "harvest",
+    "contest", "honest", "modest", "priest", "arrest", "digest", "invest", "protest", "suggest", "earliest",
+})  # fmt: skip
+
+
+def _only_leads(words: Sequence[str], others: Set[str], lexicon: Lexicon) -> bool:
+    """Whether words only lead to what is asked: who is to tell it, where that is, and the `others`."""
+    classes = lexicon.classes
+    known = classes["telling"] | classes["looking_out"] | classes["small"] | classes["prepositions"]
+    known = known | classes["determiners"] | classes["me"] | others
+    return all(word in known or stem(word) in _THINGS or is_somebody(word) for word in words)
+
+
+def _holds(said: Sequence[str], place: Sequence[str]) -> bool:
+    return any(tuple(said[at : at + len(place)]) == tuple(place) for at in range(len(said)))
+
+
+def _led_to(words: Sequence[str], place: Sequence[str], lexicon: Lexicon) -> tuple[str, ...]:
+    """A place with the preposition that it was named with."""
+    at = next(at for at in range(len(words)) if _holds(words[at : at + len(place)], place))
+    at -= at > 0 and words[at - 1] in lexicon.classes["determiners"]
+    led = words[at - 1] if at and words[at - 1] in _LEADS else "at"
+    return (led, "the", *place)
+
+
+_LEADS: Final = frozenset({"in", "on", "at", "inside", "under", "behind", "near"})
+
+
+def _is_seen(said: Sequence[str], place: Sequence[str], lexicon: Lexicon) -> bool:
+    """Whether it is to be seen now: things and people of which something is asked, at no other time."""
+    about = {stem(word) for word in said} - {stem(word) for word in place}
+    counts = tuple(said[:2]) == ("how", "many") or {*said[:5]} >= {"number", "of"}
+    if said[0] == "who":
+        seen = said[1] in ("is", "'s", "’s") and said[2] in lexicon.classes["prepositions"]
+    else:
+        seen = counts or any(word in _THINGS or is_somebody(word) or _is_extreme(word) for word in about)
+    elsewhen = _THEN | _MORE | lexicon.classes["clock"] | lexicon.classes["mental"] | lexicon.classes["me"]
+    return seen and not {*said} & elsewhen
+
+
+_POSTURES: Final = frozenset({"sitting", "standing", "lying"})
+
+
+def _counted(wish: Wish, place: Sequence[str], end_of_all: int, lexicon: Lexicon) -> Wish | None:
+    """A count with the place as a role of its own: "people sitting", "at the yard"."""
+    counted, where = wish.fillers[0], ("at", *place)
+    end = next((at for at, word in enumerate(counted.words) if word in place), len(counted.words))
+    small = (lexicon.classes["prepositions"] | lexicon.classes["determiners"]) - _POSTURES
     led = end < len(counted.words)  # by "on the": what is counted ends before that
-    while (
-        led
-        and end
-        and counted.words[end - 1] in lexicon.classes["prepositions"] | lexicon.classes["determiners"]
-    ):
+    while led and end and counted.words[end - 1] in small:
         end -= 1
     bare = counted.words[:end]
     if not bare:
         return None
     what = Filler("T", counted.start, counted.end, min(counted.head, end - 1), bare, 1.0, " ".join(bare))
-    return replace(wish, fillers=(what, where))
+    return replace(wish, fillers=(what, Filler("L", end_of_all, end_of_all + 1, len(where) - 1, where)))
 
 
 def _is_told(place: Named, situation: Situation) -> bool:

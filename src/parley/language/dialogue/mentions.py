@@ -50,12 +50,13 @@ def same_kind(one: MapObject, other: MapObject) -> bool:
 def named(tokens: Sequence[Token], objects: Sequence[MapObject], lexicon: Lexicon) -> list[Named]:
     """What is named, from left to right; of words that overlap the longest run counts."""
     low = [token.low for token in tokens]
-    words = {
-        part
+    names = {
+        tuple(name.lower().replace("_", " ").replace("-", " ").split())
         for item in objects
         for name in (item.description, item.class_name, *item.aliases)
-        for part in name.lower().replace("_", " ").replace("-", " ").split()
     }
+    names |= {other for name in names for other in lexicon.synonyms.get(name, ())}
+    words = {word for name in names for word in name}
     found: list[Named] = []
     start = 0
     while start < len(low):
