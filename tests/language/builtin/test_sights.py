@@ -42,6 +42,7 @@ def done(said: str, catalogue: tuple[ActionInfo, ...] = ABLE, memory: tuple[Memo
         ("who is in the yard", "look who is in the yard"),
         ("of the people in the yard, how many are sitting?", "drive_to yard, tally people sitting"),
         ("how many people are lying in the yard?", "drive_to yard, tally people lying"),
+        ("how many people in the yard are wearing hats?", "drive_to yard, tally people wearing hats"),
         ("from the yard, tell me how many people are standing", "drive_to yard, tally people standing"),
         ("reveal to me the thinnest book on the desk", "look the thinnest book on the desk"),
         (
@@ -50,6 +51,11 @@ def done(said: str, catalogue: tuple[ActionInfo, ...] = ABLE, memory: tuple[Memo
         ),
         ("let me know the pose of the person in the yard", "look the pose of the person in the yard"),
         ("the desk please, what is the biggest object", "look what is the biggest object at the desk"),
+        (
+            "is the person in the yard sitting or standing?",
+            "look is the person in the yard sitting or standing",
+        ),
+        ("tell me if a man or woman is in the yard", "look a man or woman is in the yard"),
         ("go to the yard and answer Kim's question", "drive_to yard, reply"),
         ("go to the yard and tell me how many people are sitting", "drive_to yard, tally people sitting"),
         ("find someone in the yard and answer a question", "drive_to yard, search someone, reply"),
@@ -76,6 +82,8 @@ def test_what_is_asked_for_is_seen_met_and_told(said: str, deeds: str) -> None:
         "how far is the yard",
         "how many people live in the yard",
         "never mind",
+        "how many people are in the yard? Bring them tea",
+        "clear the yard",
         "name the tallest thing in the yard and bring it here",
     ],
 )

@@ -11,7 +11,7 @@ from parley.language.builtin.doing import Doing, slot_of
 from parley.language.builtin.fillers import Filler
 from parley.language.builtin.grounding import WITHIN, Value, is_somebody
 from parley.language.builtin.handling import HANDLED
-from parley.language.builtin.lexicon import stem
+from parley.language.builtin.lexicon import lemmas, stem
 from parley.language.builtin.own_action import OwnAction
 from parley.language.builtin.owned import owned
 from parley.language.builtin.saying import with_article
@@ -73,10 +73,16 @@ class Builder(Doing):
                 told = role in values and (values[role].things or values[role].point)
                 self.last_thing = values[role] if told else self.last_thing
             self.last_thing = values.get("T", self.last_thing)
-            if wish.frame == "FIND" and "T" in values and self.is_person(wish.all("T"), values["T"]):
-                self.last_person = values["T"]
+            sought = values.get("T") if wish.frame == "FIND" else None
+            if sought is not None and (self._is_met(wish) or self.is_person(wish.all("T"), sought)):
+                self.last_person = sought
             made = self._planned(wish, values)
         return made if isinstance(made, Ask) else made * times
+
+    @staticmethod
+    def _is_met(wish: Wish) -> bool:
+        """Whether who is found is to be met: nobody meets a thing."""
+        return {*lemmas(wish.verb.split()[-1])} == {"meet"} if wish.verb else False
 
     def _seen(self, wish: Wish) -> Wish:
         """Whom the map does not know is looked for, and what is to be shown is looked at without a camera."""
@@ -395,7 +401,9 @@ class Builder(Doing):
         things = values["T"].things if "T" in values else ()
         if wish.frame == "BRING" and things and all(map(self._is_place, things)):
             return Ask(f"I cannot bring {values['T'].said}. What shall I do there?")
-        if wish.frame == "BRING" and not {"R", "G"} & set(values) and wish.verb.split()[0] not in _TO_ME:
+        if wish.frame != "BRING" or {"R", "G"} & set(values) or wish.verb.split()[0] in _TO_ME:
+            return None
+        if not self.is_handed_on(values):
             return Ask("Where shall I bring it?")
         return None
 

@@ -32,9 +32,11 @@ class Handling(Ways):
     def as_meant(self, wish: Wish, values: dict[str, Value]) -> tuple[Wish, dict[str, Value]] | Ask:
         """A wish with the frame that what it is about asks for: people are led, and not carried."""
         who, said = values.get("T"), wish.one("T")
+        if wish.frame == "TAKE" and who is not None and who is self.last_person and "GUIDE" in self.skills:
+            return Ask(f"Where shall I lead {who.said}?")
         if wish.frame != "BRING" or who is None or said is None:
             return wish, values
-        if "BRING" in self.skills and self._is_handed_on(values):
+        if "BRING" in self.skills and self.is_handed_on(values):
             return replace(wish, frame="TAKE"), {r: value for r, value in values.items() if r in "TSL"}
         if "G" not in values or "GUIDE" not in self.skills:
             return wish, values
@@ -45,7 +47,7 @@ class Handling(Ways):
             return wish, values
         return Ask(f"Is {who.said} somebody I shall lead there, or a thing I shall carry?")
 
-    def _is_handed_on(self, values: Mapping[str, Value]) -> bool:
+    def is_handed_on(self, values: Mapping[str, Value]) -> bool:
         """Whether what is fetched is wanted elsewhere: "fetch the box and put it on the desk"."""
         to, behind = values.get("R") or values.get("G"), self.behind
         thing = behind.one("T") if behind is not None else None
@@ -64,7 +66,7 @@ class Handling(Ways):
             thing.things
             or thing.place
             or thing.each
-            or {*"SL"} & {*values}
+            or {*("S" if "R" in values else "SL")} & {*values}
             or (self.at and wish.frame != "GIVE")
         )
         if known or thing.argument in self.held or self.sought[1] == thing.argument:

@@ -107,6 +107,9 @@ def _merged(parse: Parse) -> list[Span]:
             led = any(span.end == other.start and other.role in "GR" for other in parse.spans)
             if led or parse.tokens[span.start].low in _BARE:
                 continue
+        behind = parse.tokens[span.end].low if span.end < len(parse.tokens) else ""
+        if behind in _QUESTIONS and span.end - span.start == 1 and span.role in "TX":
+            continue  # "to answer their question" gives nobody a "their"
         last = found[-1] if found else None
         letter = span.end - span.start == 1 and len(parse.tokens[span.start].low) == 1
         if last is not None and last.role == "E" and letter and last.end == span.start:
@@ -159,6 +162,7 @@ def _apart(parse: Parse, span: Span, nearest: int) -> bool:
 
 _BARE = frozenset({"to", "for", "at", "of", "by", "from", "with"})
 """What fills no role alone."""
+_QUESTIONS = frozenset({"question", "questions"})
 _OVER = frozenset({"over", "back", "across"})
 """What fills none before a goal: "bring it over to the desk"."""
 
@@ -202,9 +206,15 @@ def _shared(wishes: list[Wish]) -> list[Wish]:
         thing = behind.one("T")
         if near and not wish.fillers and thing is not None and wish.frame in _SHARING and not wish.negated:
             found[at] = replace(wish, fillers=(thing,))
+        carried = behind.frame in _HANDING and wish.frame in _GETTING and behind.has("RG")
+        if carried and wish.has("T") and not behind.has("T") and not (wish.negated or behind.negated):
+            it = Filler("T", behind.start, behind.start, 0, ("it",), behind.share, "it")
+            found[at + 1] = replace(behind, fillers=(*behind.fillers, it))  # "take the box and give to Kim"
     return found
 
 
+_HANDING = frozenset({"GIVE", "PUT", "BRING"})
+_GETTING = frozenset({"TAKE", "FIND", "BRING"})
 _SHARING = frozenset({"FIND", "TAKE", "LOOK", "FOLLOW"})
 
 
@@ -225,7 +235,7 @@ def _led(wishes: list[Wish]) -> list[Wish]:
 _HOW = frozenset({"how", "the", "way"})
 _NAMED = frozenset("TGSLR")
 """Roles that name a thing, a place or a person."""
-_ALONG = frozenset({"down", "up", "round", "over"})
+_ALONG = frozenset({"down", "up", "round", "over", "back"})
 _FOCUS = frozenset({"only", "just", "merely", "solely"})
 
 
@@ -237,6 +247,8 @@ def _filler(parse: Parse, span: Span, lexicon: Lexicon) -> Filler:
         while start < end - 1 and parse.tokens[start].low in _FOCUS:
             start += 1
         while end - 1 > start and parse.tokens[end - 1].low in _FOCUS:
+            end -= 1
+        if end - start > 2 and parse.tokens[end - 1].low == "there":  # "from the desk there"
             end -= 1
     if span.role in "GLP" and end - start > 2 and parse.tokens[start].low in _ALONG:
         led = parse.tokens[start + 1].low
@@ -267,8 +279,9 @@ def _wish(parse: Parse, verb: Verb, mine: list[Filler], lexicon: Lexicon) -> Wis
         mine = [*(f for f in mine if f.start != end), Filler("G", end, end + 2, 1, behind, 1.0, "to me")]
     known = longer or lexicon.frames_of(words, particles)
     known |= {general for special, general in _KIND_OF.items() if special in known}
-    meant = len(longer) == 1 and verb.frame not in known and parse.acts[verb.start] == "order"
-    frame = next(iter(longer)) if meant else verb.frame  # several words leave no doubt
+    lone = longer or (known if verb.share < _GUESSED else frozenset())  # several words leave no doubt
+    meant = len(lone) == 1 and verb.frame not in known and parse.acts[verb.start] == "order"
+    frame = next(iter(lone)) if meant else verb.frame
     witness: Witness = "agrees" if frame in known else "differs" if known else "unknown"
     negated = _negated(parse, verb, lexicon)
     if negated is None or verb.mode in _NOT_SIMPLY_NOW:
@@ -278,6 +291,8 @@ def _wish(parse: Parse, verb: Verb, mine: list[Filler], lexicon: Lexicon) -> Wis
     return Wish(frame, verb.start, said, tuple(mine), verb.share, witness, act, bool(negated), verb.otherwise)
 
 
+_GUESSED = 0.5
+"""Below that the lexicon is believed, where it knows a verb for one thing only: to "meet" is to find."""
 _TO_US = frozenset({("to", "me"), ("to", "us")})
 _NOT_SIMPLY_NOW = frozenset({"later", "earlier", "allowed"})
 """What the tagger sees in a clause by itself: its place is elsewhere, or it is let and not wanted."""
@@ -457,6 +472,10 @@ def _own_state(parse: Parse, lexicon: Lexicon) -> set[int]:
     return set()
 
 
+def _ones(lexicon: Lexicon) -> frozenset[str]:
+    return lexicon.classes["determiners"] | {"one"}
+
+
 def _left_over(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
     taken: set[int] = set()
     for verb in parse.verbs:
@@ -468,7 +487,8 @@ def _left_over(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
     taken |= _own_state(parse, lexicon)
     taken |= {at for verb in parse.verbs for at in _opened(parse, verb)}
     if any(verb.frame == "ANSWER" for verb in parse.verbs):
-        taken |= {at for at, token in enumerate(parse.tokens) if token.low in ("question", "questions")}
+        asked = [at for at, token in enumerate(parse.tokens) if token.low in ("question", "questions")]
+        taken |= {*asked, *(at - 1 for at in asked if parse.tokens[at - 1].low in _ones(lexicon))}
     low = [token.low for token in parse.tokens]
     starts = {span.start for span in parse.spans}
     small = lexicon.classes["small"]

@@ -21,7 +21,7 @@ _AT = frozenset(
 _TOLD_OF = frozenset({"what", "which", "who", "how", "where", "if", "whether"})
 _QUESTION = frozenset({"question", "questions"})
 _NUMBERS = frozenset({("number", "of"), ("amount", "of")})
-_BEING = frozenset({"is", "are", "there", "'s", "do", "does", "you", "see"})
+_BEING = frozenset({"that", "who", "which", "is", "are", "there", "'s", "do", "does", "you", "see"})
 _JOINED = 2
 """So many marks and words at most stand between what is listed: ", and"."""
 _FROM_THERE = frozenset({"from", "there", "here", "on"})
@@ -59,14 +59,26 @@ def retyped(wish: Wish, lexicon: Lexicon) -> Wish:
 
 
 def _asked_by(filler: Filler, lexicon: Lexicon) -> tuple[Filler, ...]:
-    """Whose question it is; nothing of a filler that only says that it is one: "their question"."""
-    rest = [word for word in filler.words if word not in lexicon.classes["determiners"] | _QUESTION]
-    if filler.role not in "XT" or (rest and not {*filler.words} & _QUESTION):
+    """Whose question it is and where; nothing of a filler that only says that it is one: "their question"."""
+    at = next((n for n, word in enumerate(filler.words) if word in _QUESTION), len(filler.words))
+    who = [word for word in filler.words[:at] if word not in lexicon.classes["determiners"]]
+    behind, asked = filler.words[at + 1 :], at < len(filler.words)
+    if asked and not who and len(behind) > 1 and behind[0] in ("of", "from", "by"):  # "the question of Kim"
+        said = " ".join(filler.text.split()[at + 2 :])
+        return (Filler("R", filler.start + at + 2, filler.end, len(behind) - 2, behind[1:], 1.0, said),)
+    if filler.role not in "XTR" or (who and not asked) or (behind and behind[0] not in _AT):
         return (filler,)
-    if not rest or rest[-1] not in ("'s", "’s", "'"):
-        return () if not rest else (filler,)
-    name, text = tuple(rest[:-1]), filler.text.partition("'")[0].partition("’")[0]
-    return (Filler("R", filler.start, filler.end, len(name) - 1, name, filler.share, text),) if name else ()
+    found = [Filler("L", filler.end, filler.end, len(behind) - 1, behind)] if behind else []
+    if who and who[-1] not in _OWN:
+        return (filler,)
+    if name := tuple(who[:-1]):
+        share = 1.0 if behind else filler.share  # the words around it say what it is
+        text = filler.text.partition("'")[0].partition("’")[0]
+        found.append(Filler("R", filler.start, filler.end, len(name) - 1, name, share, text))
+    return tuple(found)
+
+
+_OWN = frozenset({"'s", "’s", "'"})
 
 
 def _looked_at(wish: Wish) -> Wish:
@@ -89,6 +101,8 @@ def _met(wish: Wish, lexicon: Lexicon) -> Wish:
         return _renamed(met, "L", "G", [*met.all("L")])
     if wish.frame == "FIND" and not wish.has("T") and wish.has("L"):  # "locate the office"
         return _renamed(replace(wish, frame="GO"), "L", "G", [*wish.all("L")])
+    if wish.frame == "FIND" and not wish.has("T"):
+        wish = _renamed(wish, "G", "T", [f for f in wish.all("G") if f.words[0] not in _AT])
     if wish.frame == "FIND" or wish.has("R"):
         wish = _renamed(wish, "G", "L", [f for f in wish.all("G") if f.words[0] in _AT])
     if wish.frame != "FIND" and not wish.has("T") and len(wish.all("R")) == 2:
@@ -138,15 +152,39 @@ def _gone(wish: Wish) -> Wish:
     told = {word for filler in wish.fillers for word in filler.words}
     if {*verb} & {"come", "return"} and told <= _HITHER and {*verb, *told} & {"back", "return"}:
         return replace(wish, verb="come back", fillers=())
+    wish = replace(wish, fillers=tuple(part for f in wish.fillers for part in _with_whom(f)))
     company = [filler for filler in wish.all("G") if filler.words[0] == "with"]
     if company:
-        return replace(_renamed(wish, "G", "T", company), frame="FOLLOW")
+        rest = (f for f in wish.fillers if f not in company)
+        return replace(wish, frame="FOLLOW", fillers=(*rest, *(_without_with(f) for f in company)))
     if wish.has("G"):
         return wish
     if amount is not None and amount.kind == "angle":
         return replace(wish, frame="TURN")
     backing = not wish.fillers and any(word in BACKING for word in verb) and verb[0] not in ("come", "get")
     return replace(wish, frame="MOVE") if wish.has("HN") or backing else wish
+
+
+def _with_whom(filler: Filler) -> tuple[Filler, ...]:
+    """A goal apart from who comes along: "to the desk", "with her"."""
+    at = len(filler.words) - _WITH_HER
+    if filler.role != "G" or at < 1 or filler.words[at] != "with" or filler.words[-1] not in _COMPANY:
+        return (filler,)
+    middle, said = filler.start + at, filler.text.split()
+    words, company = filler.words[:at], filler.words[at:]
+    return (
+        Filler("G", filler.start, middle, min(filler.head, at - 1), words, filler.share, " ".join(said[:at])),
+        Filler("G", middle, filler.end, 1, company, filler.share, " ".join(said[at:])),
+    )
+
+
+def _without_with(filler: Filler) -> Filler:
+    words, said = filler.words[1:], filler.text.partition(" ")[2]
+    return Filler("T", filler.start + 1, filler.end, max(filler.head - 1, 0), words, filler.share, said)
+
+
+_WITH_HER = 2
+_COMPANY = frozenset({"him", "her", "them"})
 
 
 def _renamed(wish: Wish, role: str, other: str, fillers: list[Filler]) -> Wish:

@@ -23,6 +23,7 @@ _THINGS: Final = frozenset({"object", "item", "thing", "article", "colour", "col
 _FEATURES: Final = frozenset({"number", "amount", "name", "pose", "gender", "colour", "color"})
 _OF: Final = frozenset({"of", "on", "in", "from"})
 """How a question begins that says first where: "of the boxes on the desk, which is the largest?"."""
+_ENDS: Final = frozenset({".", "?", "!", ";"})
 _FEWEST: Final = 4
 _COURTESY: Final = frozenset({"please", "thanks", "robot"})
 _THEN: Final = frozenset(
@@ -30,6 +31,9 @@ _THEN: Final = frozenset(
     | {"live", "lives", "work", "works", "own", "owns", "belong", "belongs", "fit", "fits"}
 )
 """Words of a question about other times, or about what may be."""
+_IS: Final = frozenset({"is", "are"})
+_WHETHER: Final = _IS | {"if", "whether"}
+"""How a question begins that says itself which answers there are."""
 _MORE: Final = frozenset({"and", "then", "but", "or", "if"})
 """What leads to something else that is wanted."""
 
@@ -63,6 +67,8 @@ def sight_asked_for(
     called = {word for robot in situation.robots for word in robot.lower().split()}
     if start is None or not _only_leads(words[:start], {*place} | called, lexicon) or len(words) < _FEWEST:
         return None
+    if any(token.low in _ENDS for token in tokens if spoken[start].start < token.start < spoken[-1].start):
+        return None  # more is said behind it
     said, counts = words[start:], words[start : start + 2] == ("how", "many")
     counts = counts or {*said[:5]} >= {"number", "of"}
     text = situation.message[spoken[start].start : spoken[-1].end]
@@ -83,6 +89,8 @@ def sight_asked_for(
 def _asked_from(words: Sequence[str], lexicon: Lexicon) -> int | None:
     """Where what is asked begins: at its first question word, or at what is to be told of."""
     start = next((at for at, word in enumerate(words) if word in _ASKING), None)
+    if start is None and "or" in words:  # "is the man in the hall sitting or standing?"
+        start = next((at + (word not in _IS) for at, word in enumerate(words) if word in _WHETHER), None)
     if start is not None or not {*words} & lexicon.classes["telling"]:
         return start
     for at, word in enumerate(words):
@@ -108,7 +116,7 @@ def _only_leads(words: Sequence[str], others: Set[str], lexicon: Lexicon) -> boo
     """Whether words only lead to what is asked: who is to tell it, where that is, and the `others`."""
     classes = lexicon.classes
     known = classes["telling"] | classes["looking_out"] | classes["small"] | classes["prepositions"]
-    known = known | classes["determiners"] | classes["me"] | others
+    known = known | classes["determiners"] | classes["me"] | others | _WHETHER
     return all(word in known or stem(word) in _THINGS or is_somebody(word) for word in words)
 
 
@@ -135,6 +143,8 @@ def _is_seen(said: Sequence[str], place: Sequence[str], lexicon: Lexicon) -> boo
         seen = said[1] in ("is", "'s", "’s") and said[2] in lexicon.classes["prepositions"]
     else:
         seen = counts or any(word in _THINGS or is_somebody(word) or _is_extreme(word) for word in about)
+    if "or" in said and not {*said} & _ASKING:  # which of the two it is
+        said = tuple(word for word in said if word != "or")
     elsewhen = _THEN | _MORE | lexicon.classes["clock"] | lexicon.classes["mental"] | lexicon.classes["me"]
     return seen and not {*said} & elsewhen
 
@@ -146,6 +156,7 @@ def _counted(wish: Wish, place: Sequence[str], end_of_all: int, lexicon: Lexicon
     """A count with the place as a role of its own: "people sitting", "at the yard"."""
     counted, where = wish.fillers[0], ("at", *place)
     end = next((at for at, word in enumerate(counted.words) if word in place), len(counted.words))
+    behind = end + len(place)  # "people in the hall wearing hats"
     small = (lexicon.classes["prepositions"] | lexicon.classes["determiners"]) - _POSTURES
     led = end < len(counted.words)  # by "on the": what is counted ends before that
     while led and end and counted.words[end - 1] in small:
@@ -153,6 +164,7 @@ def _counted(wish: Wish, place: Sequence[str], end_of_all: int, lexicon: Lexicon
     bare = counted.words[:end]
     if not bare:
         return None
+    bare += tuple(word for word in counted.words[behind:] if word not in _IS)
     what = Filler("T", counted.start, counted.end, min(counted.head, end - 1), bare, 1.0, " ".join(bare))
     return replace(wish, fillers=(what, Filler("L", end_of_all, end_of_all + 1, len(where) - 1, where)))
 

@@ -31,7 +31,7 @@ _SENTENCE: Final = 3
 _ALOUD: Final = re.compile(r"^(?:aloud|loudly|loud|this|the following)\s*:\s*", re.IGNORECASE)
 _REPORTED: Final = re.compile(
     r"(?:about|of|how|what|whether|if|who|whom|whose|which|where|when|why|until|once|as|something|it|this|"
-    r"them|so|in)\b|that$",
+    r"them|so|in|something about)\b|that$",
     re.IGNORECASE,
 )
 """How words begin that only tell what is to be said."""

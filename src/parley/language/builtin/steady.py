@@ -7,6 +7,7 @@ from dataclasses import fields, replace
 
 import numpy as np
 
+from parley.language.builtin.folding import folded
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.reading import Reading, read
 from parley.language.builtin.requests import requested
@@ -42,7 +43,7 @@ def steadily(tagger: Tagger, tokens: Sequence[Token], lexicon: Lexicon) -> tuple
 
 
 def _read(tokens: Sequence[Token], scores: Scores, lexicon: Lexicon) -> tuple[Parse, Reading]:
-    found = requested(parse(tuple(tokens), scores), lexicon)
+    found = folded(requested(parse(tuple(tokens), scores), lexicon), lexicon)
     return found, read(found, lexicon)
 
 

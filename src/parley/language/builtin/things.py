@@ -108,7 +108,7 @@ def _referring(words: Sequence[str], head: int, lexicon: Lexicon) -> Mention | N
     bare = [word for word in words if word not in small and word != "back"]  # "come back to me"
     if words[head] in lexicon.classes["me"] or any(word in lexicon.classes["me"] for word in bare[:1]):
         return Mention("speaker", "me")
-    if " ".join(words) in lexicon.classes["here"]:
+    if " ".join(words[words[0] == "to" :]) in lexicon.classes["here"]:
         return Mention("here", "here")
     if words[head] in lexicon.classes["persons"]:
         return Mention("pronoun", words[head])

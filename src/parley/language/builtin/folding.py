@@ -1,0 +1,137 @@
+"""Clauses that only say where somebody is, or that somebody is helped, as parts of the order beside them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.spans import Parse, Span
+
+__all__ = ["folded"]
+
+_WHO = frozenset({"he", "she", "they", "who", "that"})
+_WHAT = frozenset({"it", "that", "which"})
+_WHOM = frozenset({"him", "her", "them", "it"})
+_IS = frozenset({"is", "are", "'s", "’s", "'re", "’re"})
+_AT = frozenset({"at", "in", "on", "by", "near", "beside", "behind", "inside", "under", "over"})
+_BREAKS = frozenset({",", ";", ".", ":", "!", "?", "and", "then", "but", "or", "please", "so"})
+_FETCHED = frozenset({"BRING", "TAKE", "GIVE"})
+_MEETING = frozenset({"FOLLOW", "FIND", "GUIDE"})
+_WAYS = frozenset({"way", "direction"})
+_LONGEST_NAME = 4
+
+
+def folded(parse: Parse, lexicon: Lexicon) -> Parse:
+    """What was read, with one order of what was two clauses.
+
+    "Follow Kim, she's at the desk" says where Kim is to be met; "help Kim get to the gate" has Kim led there.
+
+    Args:
+        parse: What words are.
+        lexicon: Closed classes.
+    """
+    return _helped(_placed(parse), lexicon)
+
+
+def _placed(parse: Parse) -> Parse:
+    """With "she's at the desk", behind an order about her, as the place of that order."""
+    low = [token.low for token in parse.tokens]
+    for at in range(2, len(low) - 2):
+        verb = next((n for n, one in reversed([*enumerate(parse.verbs)]) if one.end <= at), None)
+        told = _told_from(low, at)
+        if not told or verb is None or parse.acts[parse.verbs[verb].start] != "order":
+            continue
+        word, place = told
+        end = next((n for n in range(place + 1, len(low)) if low[n] in _BREAKS), len(low))
+        role = _place_of(parse, verb, word, at)
+        others = [one for one in parse.verbs if at <= one.start < end and one.frame not in ("BELOC", "FIND")]
+        within = any(span.start < at < span.end for span in parse.spans)  # "the mug that is on the desk"
+        if role and not (others or within) and end > place + 1:
+            return _with_place(parse, at, place, end, Span(role, place, end, end - 1, verb, 1.0))
+    return parse
+
+
+def _told_from(low: list[str], at: int) -> tuple[str, int] | None:
+    """Of whom something is told from a word on, and where its place begins; None if no place is told."""
+    if low[at + 1] in _IS and low[at + 2] in _AT:
+        return low[at], at + 2
+    start = at + (low[at] in ("who", "whom", "that"))
+    found = low[start : start + 1] == ["you"] and next(
+        (n for n in (start + 1, start + 2) if low[n : n + 1] == ["find"]), 0
+    )
+    if not found:
+        return None
+    who = low[found + 1 : found + 2] and low[found + 1] in _WHOM
+    place = found + 1 + bool(who)
+    return ("they", place) if low[place : place + 1] and low[place] in _AT else None
+
+
+def _place_of(parse: Parse, verb: int, word: str, start: int) -> str:
+    """Which role of an order says where that is of which more is told; none if it has it already."""
+    frame = parse.verbs[verb].frame
+    roles = {span.role for span in parse.spans if span.owner == verb and span.end <= start}
+    if word in _WHO and (frame == "ANSWER" or roles & {"R"} or (frame in _MEETING and roles & {"T"})):
+        role = "S" if frame == "GUIDE" else "L"
+    elif word in _WHAT and "T" in roles:
+        role = "S" if frame in _FETCHED else "L" if frame == "FIND" else ""
+    else:
+        role = ""
+    return role if role and role not in roles else ""
+
+
+def _with_place(parse: Parse, start: int, place: int, end: int, span: Span) -> Parse:
+    """With a clause as one role of a verb before it."""
+    kept = [n for n, one in enumerate(parse.verbs) if not start <= one.start < end]
+    spans = [one for one in parse.spans if one.end <= start or one.start >= end]
+    spans.append(span)
+    spans.sort(key=lambda one: one.start)
+    spans = [replace(one, owner=kept.index(one.owner) if one.owner in kept else None) for one in spans]
+    acts = list(parse.acts)
+    acts[start:end] = ["told"] * (place - start) + ["order"] * (end - place)
+    verbs = tuple(parse.verbs[n] for n in kept)
+    return replace(parse, verbs=verbs, spans=tuple(spans), acts=tuple(acts))
+
+
+def _helped(parse: Parse, lexicon: Lexicon) -> Parse:
+    """With "help me" before a verb as a word of courtesy, and with whom else is helped as who is led."""
+    low = [token.low for token in parse.tokens]
+    at = next((n for n, word in enumerate(low) if word == "help"), len(low))
+    number = next((n for n, verb in enumerate(parse.verbs) if verb.start > at + 1), None)
+    if (
+        number is None
+        or lexicon.classes["danger"] - {"help"} & {*low}
+        or any(v.start == at for v in parse.verbs)
+    ):
+        return parse
+    verb = parse.verbs[number]
+    end = verb.start - (low[verb.start - 1] == "to")
+    who = low[at + 1 : end]
+    if not who or len(who) > _LONGEST_NAME or {*who} & _BREAKS or parse.acts[verb.start] != "order":
+        return parse
+    acts = list(parse.acts)
+    acts[at : verb.start] = ["order"] * (verb.start - at)
+    parse = replace(parse, acts=tuple(acts))
+    if {*who} <= lexicon.classes["me"]:
+        return replace(parse, acts=(*acts[:at], *["social"] * (end - at), *acts[end:]))
+    return _led(parse, number, at, end, low)
+
+
+def _led(parse: Parse, number: int, at: int, end: int, low: list[str]) -> Parse:
+    """Who is helped to get somewhere as who is led there."""
+    verb, mine = parse.verbs[number], [span for span in parse.spans if span.owner == number]
+    finds = verb.frame == "FIND" and {*low[verb.end :]} & _WAYS
+    if not any(span.role == "G" for span in mine) or not (verb.frame == "GO" or finds):
+        return parse
+    kept = [span for span in parse.spans if span.end <= at or span.start >= end]
+    kept = [span for span in kept if span.owner != number or span.role not in "TXS"]
+    start = next(span.start for span in mine if span.role == "G")
+    source = next((n for n in range(verb.end, start) if low[n] == "from"), None)
+    if source is not None:
+        kept.append(Span("S", source, start, start - 1, number, verb.share))
+    kept.append(Span("T", at + 1, end, end - 1, number, verb.share))
+    first, behind = start if source is None else source, len(low) - end
+    acts = (*parse.acts[:end], *["social"] * (first - end), *["order"] * behind)[: len(low)]
+    kept.sort(key=lambda span: span.start)
+    verbs = list(parse.verbs)
+    verbs[number] = replace(verb, frame="GUIDE", start=at, end=at + 1)
+    return replace(parse, verbs=tuple(verbs), spans=tuple(kept), acts=acts)
