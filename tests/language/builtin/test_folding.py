@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from tests.language.builtin.test_sights import done
+from parley.language.builtin.decision import Do
+from tests.language.builtin.test_sights import ABLE, ENGINE, done
+from tests.language.builtin.worlds import situation
 
 
 @pytest.mark.parametrize(
@@ -62,3 +64,24 @@ def test_words_that_others_settle_are_not_asked_about(said: str, deeds: str) -> 
 
 def test_somebody_who_was_met_is_led_and_not_picked_up() -> None:
     assert done("meet Lena in the yard and take them") == "Ask"
+
+
+@pytest.mark.parametrize(
+    ("said", "deeds"),
+    [
+        ("bring the stapler to Lena over at the yard", "search stapler, drive_to yard, carry stapler Lena"),
+        (
+            "go to the yard and when you find a girl tell her what day it is",
+            "drive_to yard, search girl, inform what day it is",
+        ),
+        ("trail behind Lena", "go_along Lena"),
+    ],
+)
+def test_somebody_is_found_where_and_when_it_is_said(said: str, deeds: str) -> None:
+    assert done(said) == deeds
+
+
+def test_a_name_in_small_letters_gets_no_article() -> None:
+    made = ENGINE.decide(situation("meet robin at the desk and lead them to the yard", catalogue=ABLE))
+    assert isinstance(made, Do)
+    assert "the robin" not in " ".join(text for deed in made.deeds for text in deed.said.values())

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from parley.language.builtin.decision import Ask, Deed
 from parley.language.builtin.facts import Place, known_place
 from parley.language.builtin.grounding import Value
-from parley.language.builtin.lexicon import stems
+from parley.language.builtin.lexicon import Lexicon, stems
 from parley.language.builtin.saying import which_one, with_article
 from parley.language.builtin.sets import group
 from parley.language.builtin.things import link
@@ -209,7 +209,7 @@ def _before_verb(words: Sequence[str]) -> Sequence[str]:
 
 def seen_at(builder: Ways, words: Sequence[str]) -> Value | Ask | None:
     """Where a statement is looked at: what it names, else what was spoken of; None: where the robot is."""
-    named = whole_names(words, builder.situation.objects)
+    named = whole_names(words, builder.situation.objects, builder.lexicon)
     for start, item in reversed(named):
         before = [
             word
@@ -251,24 +251,28 @@ def _one_called(
     return Ask(which_one(called), called)
 
 
-def whole_names(words: Sequence[str], objects: Sequence[MapObject]) -> list[tuple[int, MapObject]]:
-    """The things whose whole names stand in a row of words, with where; a longer name hides a shorter one."""
-    said = [stems([word]) for word in words]
-    flat = [one[0] if one else "" for one in said]
-    found: list[tuple[int, int, MapObject]] = []
+def whole_names(
+    words: Sequence[str], objects: Sequence[MapObject], lexicon: Lexicon
+) -> list[tuple[int, MapObject]]:
+    """The things whose whole names stand in a row of words, with where; a longer name hides a shorter one.
+
+    Another word for a thing hides what stands in it, too: "dining room table" has no dining room.
+    """
+    flat = [next(iter(stems([word])), "") for word in words]
+    found: list[tuple[int, int, MapObject | None]] = []
     for item in objects:
-        for name in (item.description, *item.aliases):
-            wanted = list(stems(name.split()))
-            size = len(wanted)
-            found += [
-                (at, size, item) for at in range(len(flat) - size + 1) if flat[at : at + size] == wanted
-            ]
-    found.sort(key=lambda one: -one[1])
-    kept: list[tuple[int, int, MapObject]] = []
-    for at, size, item in found:
+        own = {tuple(name.lower().split()) for name in (item.description, *item.aliases)}
+        other = {words for name in own for words in lexicon.synonyms.get(name, ())}
+        for name in own | other:
+            wanted, size = list(stems(name)), len(name)
+            ats = (at for at in range(len(flat) - size + 1) if flat[at : at + size] == wanted)
+            found += [(at, size, item if name in own else None) for at in ats]
+    found.sort(key=lambda one: (-one[1], one[2] is None))
+    kept: list[tuple[int, int, MapObject | None]] = []
+    for at, size, thing in found:
         if all(at + size <= other or at >= other + length for other, length, _ in kept):
-            kept.append((at, size, item))
-    return sorted(((at, item) for at, _, item in kept), key=lambda one: one[0])
+            kept.append((at, size, thing))
+    return sorted(((at, thing) for at, _, thing in kept if thing is not None), key=lambda one: one[0])
 
 
 def _remembered(builder: Ways, words: Sequence[str]) -> Place | None:

@@ -247,7 +247,7 @@ def _dropped(parts: Sequence[Part], deeds: Sequence[Deed], builder: Builder) -> 
         low = part.parse.tokens if part.clause.link == "main" and not own else ()
         verbs = {at for verb in part.parse.verbs for at in range(verb.start, verb.end)}
         words = [token.low for token in low]
-        found = whole_names(words, builder.situation.objects)
+        found = whole_names(words, builder.situation.objects, lexicon)
         for start, thing in found:
             before = [word for word in words[:start] if word not in idle]
             anchors = {*before[-3:]} & _ANCHORS or {*before[-4:]} & _PICKING

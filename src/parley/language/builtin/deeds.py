@@ -69,13 +69,13 @@ class Builder(Doing):
             self.whole = several[0]
             made = self._for_each(wish, values, several[0])
         else:
+            sought = values.get("T") if wish.frame == "FIND" else None
+            if sought is not None and (self._is_met(wish) or self.is_person(wish.all("T"), sought)):
+                values["T"] = self.last_person = self.called(wish.all("T")[0], sought)
             for role in "LSGT":
                 told = role in values and (values[role].things or values[role].point)
                 self.last_thing = values[role] if told else self.last_thing
             self.last_thing = values.get("T", self.last_thing)
-            sought = values.get("T") if wish.frame == "FIND" else None
-            if sought is not None and (self._is_met(wish) or self.is_person(wish.all("T"), sought)):
-                self.last_person = sought
             made = self._planned(wish, values)
         return made if isinstance(made, Ask) else made * times
 

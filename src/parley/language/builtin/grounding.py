@@ -123,8 +123,15 @@ class Grounder:
         name, rest = noun_phrase(filler.words, filler.head, self.lexicon)
         text = as_said(" ".join((*name, *rest)), filler.text)
         found = Value(text, with_article(text), mention.things, known_place(name, self.known))
-        self.last_person = found
-        return found
+        self.last_person = self.called(filler, found)
+        return self.last_person
+
+    def called(self, filler: Filler, who: Value) -> Value:
+        """Somebody who is called by a name, in small letters too: "kim", and not "the kim"."""
+        led = {*filler.words[: filler.head]} & self.lexicon.classes["determiners"]
+        if led or who.things or is_somebody(filler.words[filler.head]):
+            return who
+        return replace(who, said=who.said.removeprefix("the "))
 
     def speaker(self) -> Value:
         """Whoever speaks, where they said they are."""

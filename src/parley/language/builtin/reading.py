@@ -252,7 +252,7 @@ def _filler(parse: Parse, span: Span, lexicon: Lexicon) -> Filler:
             end -= 1
     if span.role in "GLP" and end - start > 2 and parse.tokens[start].low in _ALONG:
         led = parse.tokens[start + 1].low
-        start += led == "to" or led in lexicon.classes["determiners"]  # "down the hall", "up to the desk"
+        start += led in ("to", "at") or led in lexicon.classes["determiners"]  # "down the hall", "up to it"
     words = tuple(token.low for token in parse.tokens[start:end])
     head = min(max(span.head, start), end - 1) - start
     small = lexicon.classes["prepositions"] | lexicon.classes["determiners"]

@@ -40,6 +40,10 @@ def retyped(wish: Wish, lexicon: Lexicon) -> Wish:
         return replace(wish, fillers=tuple(one for f in wish.fillers for one in _asked_by(f, lexicon)))
     if wish.frame == "WAIT" and wish.has("L") and not wish.has("DU"):
         return replace(_renamed(wish, "L", "G", list(wish.all("L"))), frame="GO")  # "stop at the gate"
+    if wish.frame == "FOLLOW" and not wish.has("T"):  # "trail behind Kim"
+        behind = [f for f in wish.all("L") if f.words[0] in _AFTER and len(f.words) > 1]
+        rest = tuple(f for f in wish.fillers if f not in behind)
+        return replace(wish, fillers=(*rest, *(_without_first(f) for f in behind)))
     if wish.frame == "GUIDE" and not wish.has("T"):
         return _renamed(wish, "R", "T", list(wish.all("R")))
     if wish.frame == "GO":
@@ -156,7 +160,7 @@ def _gone(wish: Wish) -> Wish:
     company = [filler for filler in wish.all("G") if filler.words[0] == "with"]
     if company:
         rest = (f for f in wish.fillers if f not in company)
-        return replace(wish, frame="FOLLOW", fillers=(*rest, *(_without_with(f) for f in company)))
+        return replace(wish, frame="FOLLOW", fillers=(*rest, *(_without_first(f) for f in company)))
     if wish.has("G"):
         return wish
     if amount is not None and amount.kind == "angle":
@@ -178,7 +182,11 @@ def _with_whom(filler: Filler) -> tuple[Filler, ...]:
     )
 
 
-def _without_with(filler: Filler) -> Filler:
+_AFTER = frozenset({"behind", "after"})
+
+
+def _without_first(filler: Filler) -> Filler:
+    """Whom alone, without the "with" or "behind" before it."""
     words, said = filler.words[1:], filler.text.partition(" ")[2]
     return Filler("T", filler.start + 1, filler.end, max(filler.head - 1, 0), words, filler.share, said)
 

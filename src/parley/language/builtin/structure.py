@@ -202,7 +202,8 @@ class _Arranger:
         if part.clause.link == "before" and _goes_on(part):
             return None
         node = Orders(part, is_order=True)
-        if part.clause.link == "when" and not words & self.lexicon.classes["arriving"]:
+        sought = bool(words & _FINDING and self.target)  # "go to the desk, and when you find Kim, ..."
+        if part.clause.link == "when" and not (sought or words & self.lexicon.classes["arriving"]):
             return Unclear(
                 f"Shall I see now whether “{part.text}”, or keep it in mind? I cannot wait for it by myself."
             )
@@ -227,6 +228,9 @@ class _Arranger:
             return Unclear(f"What does “{part.text}” belong to?")
         what.limits.append(part)
         return None
+
+
+_FINDING = frozenset({"find", "found", "locate", "located", "meet", "met"})
 
 
 def _goes_on(part: Part) -> bool:
