@@ -64,6 +64,10 @@ def test_words_that_others_settle_are_not_asked_about(said: str, deeds: str) -> 
 
 def test_somebody_who_was_met_is_led_and_not_picked_up() -> None:
     assert done("meet Lena in the yard and take them") == "Ask"
+    assert done("meet Lena in the yard and bring her back") == "Ask"
+    assert (
+        done("meet Lena in the yard and bring her to me") == "drive_to yard, search Lena, lead Lena operator"
+    )
 
 
 @pytest.mark.parametrize(
@@ -75,6 +79,11 @@ def test_somebody_who_was_met_is_led_and_not_picked_up() -> None:
             "drive_to yard, search girl, inform what day it is",
         ),
         ("trail behind Lena", "go_along Lena"),
+        ("go to the desk to meet Lena, and follow her", "drive_to desk, search Lena, go_along Lena"),
+        (
+            "Tell Lena the day of the week you will find her in the yard.",
+            "drive_to yard, inform the day of the week",
+        ),
     ],
 )
 def test_somebody_is_found_where_and_when_it_is_said(said: str, deeds: str) -> None:

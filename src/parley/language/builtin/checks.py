@@ -256,7 +256,7 @@ def whole_names(
 ) -> list[tuple[int, MapObject]]:
     """The things whose whole names stand in a row of words, with where; a longer name hides a shorter one.
 
-    Another word for a thing hides what stands in it, too: "dining room table" has no dining room.
+    Another word for a thing hides what stands in it, too: a "sitting room table" is no sitting room.
     """
     flat = [next(iter(stems([word])), "") for word in words]
     found: list[tuple[int, int, MapObject | None]] = []

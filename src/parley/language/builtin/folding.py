@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from parley.language.builtin.lexicon import Lexicon
-from parley.language.builtin.spans import Parse, Span
+from parley.language.builtin.spans import Parse, Span, Verb
 
 __all__ = ["folded"]
 
@@ -30,7 +30,31 @@ def folded(parse: Parse, lexicon: Lexicon) -> Parse:
         parse: What words are.
         lexicon: Closed classes.
     """
-    return _helped(_placed(parse), lexicon)
+    return _helped(_placed(_purposed(parse, lexicon)), lexicon)
+
+
+def _purposed(parse: Parse, lexicon: Lexicon) -> Parse:
+    """With what a way is for as an order of its own: "go to the desk to meet Kim"."""
+    low = [token.low for token in parse.tokens]
+    for place, span in enumerate(parse.spans):
+        at, behind = span.start + 1, parse.spans[place + 1 : place + 2]
+        meets = span.role == "G" and low[at - 1] == "to" and at < span.end
+        if not meets or lexicon.frames_of([low[at]], []) != {"FIND"}:
+            continue
+        number = sum(verb.start < at for verb in parse.verbs)
+        verbs = (*parse.verbs[:number], Verb("FIND", at, at + 1, span.share), *parse.verbs[number:])
+        spans = [
+            one if one.owner is None or one.owner < number else replace(one, owner=one.owner + 1)
+            for one in parse.spans
+        ]
+        if at + 1 < span.end:
+            spans[place] = replace(span, role="T", start=at + 1, owner=number)
+        elif behind and behind[0].start == span.end and behind[0].role in "GT":
+            spans[place : place + 2] = [replace(behind[0], role="T", owner=number)]
+        else:
+            continue
+        return replace(parse, verbs=verbs, spans=tuple(spans))
+    return parse
 
 
 def _placed(parse: Parse) -> Parse:
@@ -45,7 +69,8 @@ def _placed(parse: Parse) -> Parse:
         end = next((n for n in range(place + 1, len(low)) if low[n] in _BREAKS), len(low))
         role = _place_of(parse, verb, word, at)
         others = [one for one in parse.verbs if at <= one.start < end and one.frame not in ("BELOC", "FIND")]
-        within = any(span.start < at < span.end for span in parse.spans)  # "the mug that is on the desk"
+        within = any(span.start < at < span.end for span in parse.spans) and low[at + 1] in _IS
+        # a part of what it stands in: "the mug that is on the desk"
         if role and not (others or within) and end > place + 1:
             return _with_place(parse, at, place, end, Span(role, place, end, end - 1, verb, 1.0))
     return parse
@@ -82,7 +107,11 @@ def _place_of(parse: Parse, verb: int, word: str, start: int) -> str:
 def _with_place(parse: Parse, start: int, place: int, end: int, span: Span) -> Parse:
     """With a clause as one role of a verb before it."""
     kept = [n for n, one in enumerate(parse.verbs) if not start <= one.start < end]
-    spans = [one for one in parse.spans if one.end <= start or one.start >= end]
+    spans = [one for one in parse.spans if one.start < start or one.start >= end]
+    spans = [
+        replace(one, end=start, head=min(one.head, start - 1)) if one.end > start > one.start else one
+        for one in spans
+    ]
     spans.append(span)
     spans.sort(key=lambda one: one.start)
     spans = [replace(one, owner=kept.index(one.owner) if one.owner in kept else None) for one in spans]

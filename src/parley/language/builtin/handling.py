@@ -32,18 +32,18 @@ class Handling(Ways):
     def as_meant(self, wish: Wish, values: dict[str, Value]) -> tuple[Wish, dict[str, Value]] | Ask:
         """A wish with the frame that what it is about asks for: people are led, and not carried."""
         who, said = values.get("T"), wish.one("T")
-        if wish.frame == "TAKE" and who is not None and who is self.last_person and "GUIDE" in self.skills:
-            return Ask(f"Where shall I lead {who.said}?")
-        if wish.frame != "BRING" or who is None or said is None:
-            return wish, values
-        if "BRING" in self.skills and self.is_handed_on(values):
-            return replace(wish, frame="TAKE"), {r: value for r, value in values.items() if r in "TSL"}
-        if "G" not in values or "GUIDE" not in self.skills:
+        if wish.frame not in ("BRING", "TAKE") or who is None or said is None:
             return wish, values
         known = who is self.last_person or {*said.words} <= self.lexicon.classes["persons"]
-        if known or is_somebody(said.words[said.head]):
-            return replace(wish, frame="GUIDE"), {r: value for r, value in values.items() if r in "TGS"}
-        if who.things or not self.is_person([said], who):
+        known, goal = known or is_somebody(said.words[said.head]), values.get("G") or values.get("R")
+        if known and "GUIDE" in self.skills:
+            if goal is None:
+                return Ask(f"Where shall I lead {who.said}?")
+            led = {role: value for role, value in values.items() if role in "TS"}
+            return replace(wish, frame="GUIDE"), led | {"G": goal}
+        if wish.frame == "BRING" and "BRING" in self.skills and self.is_handed_on(values):
+            return replace(wish, frame="TAKE"), {r: value for r, value in values.items() if r in "TSL"}
+        if "G" not in values or "GUIDE" not in self.skills or who.things or not self.is_person([said], who):
             return wish, values
         return Ask(f"Is {who.said} somebody I shall lead there, or a thing I shall carry?")
 

@@ -67,6 +67,8 @@ def _asked_by(filler: Filler, lexicon: Lexicon) -> tuple[Filler, ...]:
     at = next((n for n, word in enumerate(filler.words) if word in _QUESTION), len(filler.words))
     who = [word for word in filler.words[:at] if word not in lexicon.classes["determiners"]]
     behind, asked = filler.words[at + 1 :], at < len(filler.words)
+    if filler.role == "R" and filler.words[0] == "of" and len(filler.words) > 1:
+        return (replace(_without_first(filler), role="R", share=1.0),)
     if asked and not who and len(behind) > 1 and behind[0] in ("of", "from", "by"):  # "the question of Kim"
         said = " ".join(filler.text.split()[at + 2 :])
         return (Filler("R", filler.start + at + 2, filler.end, len(behind) - 2, behind[1:], 1.0, said),)
