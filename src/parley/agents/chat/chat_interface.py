@@ -70,6 +70,8 @@ __all__ = ["ChatInterface"]
 
 _MISSION: Final = "mission"
 _AGAIN: Final = {"again", "retry"}
+_REPEATING: Final = {"again", "once", "another"}
+"""In "do it again", "once more", "another time"."""
 _SHORT_WORDS: Final = 3
 _HALTING: Final = ("stop", "clear", "emergency_stop")
 """Controls after which nothing that was said before may still set a robot in motion."""
@@ -252,7 +254,7 @@ class ChatInterface(Node):
             elif halts and control not in _HALTING:
                 self._control(target, "stop", said, more=control is None)
             elif control is not None and not (
-                self._answers(target, question, control)
+                self._answers(target, question, control, said)
                 or (offered and control == "skip" and self._refuses(target, said))
             ):
                 self._control(target, control, said)
@@ -370,9 +372,11 @@ class ChatInterface(Node):
             self._answering.still_thinking(target, slow, said.message)
         return False
 
-    def _answers(self, target: str, question: ChatFeedback | None, control: Control) -> bool:
-        """Whether "go on" answers a question; while the robot is paused it means to go on."""
-        return question is not None and control == "start" and self._known.state(target) != "paused"
+    def _answers(self, target: str, question: ChatFeedback | None, control: Control, said: ChatInput) -> bool:
+        """Whether "go on" answers a question, or "again" is an order; to a paused robot it says to go on."""
+        state = self._known.state(target)
+        again = state == "idle" and bool(_REPEATING & {*said.message.lower().strip(" .!").split()})
+        return control == "start" and state != "paused" and (question is not None or again)
 
     def _call_off(self, target: str, control: Control, said: ChatInput) -> None:
         """Drop the others' parts, too, where it is the mission that is to be dropped."""

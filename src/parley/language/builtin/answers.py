@@ -65,7 +65,7 @@ def look_asked_for(tokens: Sequence[Token], names: Sequence[Named]) -> str:
     """
     low = [token.low for token in tokens if token.is_word]
     ask = next((at for at, word in enumerate(low[:3]) if word in ("is", "are")), None)
-    if ask is None or set(low[:ask]) - _OPENING or len(names) != 1 or len(names[0].things) != 1:
+    if ask is None or set(low[:ask]) - _OPENING or len(names) != 1:
         return ""
     being, rest = low[ask], low[ask + 1 :]
     if rest[:1] == ["there"] or (rest and rest[0] in _ANY):

@@ -114,6 +114,8 @@ def _looking(
         return sight
     order = look_asked_for(tokens, named(tokens, situation.objects, lexicon))
     made = again(order) if order else None
+    if isinstance(made, Ask) and made.choices:
+        return made
     if not isinstance(made, Do) or {*made.robots} - {situation.robot}:
         return None
     return Ask("I cannot tell that from here. Shall I go and look?", offer=made.deeds)

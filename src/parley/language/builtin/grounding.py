@@ -252,7 +252,7 @@ class Grounder:
 
     def _room(self, frame: str, filler: Filler) -> Value | None:
         """A room of the map as a goal, by its whole name; a thing that is called so goes before."""
-        if frame not in _IN_ROOMS or filler.role not in "GL":
+        if not _may_be_room(frame, filler):
             return None
         small = self.lexicon.classes["prepositions"] | self.lexicon.classes["determiners"]
         name = [word for word in filler.words if word not in small]
@@ -264,7 +264,7 @@ class Grounder:
 
     def _in_room(self, frame: str, filler: Filler) -> MapObject | None:
         """Of a room as a goal the nearest thing in it, where the map has no rooms but things tell of them."""
-        if frame not in _IN_ROOMS or filler.role not in "GL":
+        if not _may_be_room(frame, filler):
             return None
         return self.inside(filler.words)
 
@@ -447,6 +447,11 @@ class Grounder:
     def left_undone(self, text: str) -> None:
         """Something that is not wanted: it is said."""
         self.notes.append(Note(f"I leave that out: “{text}”."))
+
+
+def _may_be_room(frame: str, filler: Filler) -> bool:
+    """Whether a role may be filled by a room: a goal, where something is, or what is looked at."""
+    return frame in _IN_ROOMS and (filler.role in "GL" or (frame == "LOOK" and filler.role == "T"))
 
 
 def is_somebody(word: str) -> bool:

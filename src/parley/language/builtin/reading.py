@@ -8,7 +8,7 @@ from itertools import pairwise
 from parley.language.builtin.amounts import amount_of, direction_of
 from parley.language.builtin.fillers import Filler
 from parley.language.builtin.lexicon import Lexicon, lemmas
-from parley.language.builtin.retyping import retyped
+from parley.language.builtin.retyping import looks_here, retyped
 from parley.language.builtin.spans import Parse, Span, Verb
 from parley.language.builtin.wishes import Wish, Witness
 
@@ -176,8 +176,13 @@ def _without_openers(wishes: list[Wish], parse: Parse) -> list[Wish]:
         bare = not wish.fillers and not wish.negated and opens
         between = parse.tokens[wish.start : behind.start] if behind is not None else ()
         apart = any(token.low in ("then", ",", ".") for token in between)
-        reports = kept and kept[-1].frame == wish.frame == "LOOK" and not wish.fillers
-        if reports or (near and bare and not apart and behind is not None and behind.act == wish.act):
+        reports = kept and kept[-1].frame == wish.frame == "LOOK"
+        if reports and looks_here(kept[-1]):
+            kept[-1] = wish  # "look around and tell me what is on the desk"
+            continue
+        if (reports and not wish.fillers) or (
+            near and bare and not apart and behind is not None and behind.act == wish.act
+        ):
             continue
         kept.append(wish)
     return kept

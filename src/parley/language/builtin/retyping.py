@@ -9,10 +9,12 @@ from parley.language.builtin.fillers import Filler
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.wishes import Wish
 
-__all__ = ["BACKING", "retyped"]
+__all__ = ["BACKING", "looks_here", "retyped"]
 
 BACKING = frozenset({"back", "backup", "reverse", "backing", "reversing", "retreat"})
 """Verbs that say the direction themselves."""
+_HEREABOUTS = frozenset({"around", "round", "here"})
+_LOOKED_ON = frozenset({"on", "in", "inside", "at", "around", "round", "through", "over"})
 _HITHER = frozenset({"back", "here", "to", "over"})
 _AT = frozenset(
     {"on", "in", "at", "near", "by", "under", "beside", "next", "behind", "inside", "from", "off"}
@@ -95,8 +97,21 @@ def _looked_at(wish: Wish) -> Wish:
         return replace(wish, frame="COUNT", fillers=(_counted(thing, bare[2:]), *wish.all("L")))
     if wish.frame != "LOOK" or wish.has("TK"):
         return wish
-    on = [f for f in wish.all("L") if f.words[0] in ("on", "in", "inside", "at") and len(f.words) > 1]
+    said = {word for f in wish.fillers for word in f.words}
+    if said <= _HEREABOUTS and (said | {*wish.verb.split()}) & _HEREABOUTS:  # "look around"
+        end = wish.start + len(wish.verb.split())
+        here = Filler("K", end, end, 4, _WHAT_IS_HERE, 1.0, " ".join(_WHAT_IS_HERE))
+        return replace(wish, fillers=(here,))
+    on = [f for f in wish.all("L") if f.words[0] in _LOOKED_ON and len(f.words) > 1]
     return replace(wish, frame="SAY") if wish.has("X") else _renamed(wish, "L", "T", on)
+
+
+_WHAT_IS_HERE = ("what", "can", "be", "seen", "here")
+
+
+def looks_here(wish: Wish) -> bool:
+    """Whether it is a look at nothing that is named: "look around"."""
+    return any(filler.words == _WHAT_IS_HERE for filler in wish.all("K"))
 
 
 def _met(wish: Wish, lexicon: Lexicon) -> Wish:

@@ -310,7 +310,10 @@ def _seen(situation: Situation, about: str) -> str:
         return "I have not looked there with my camera yet."
     here = f"I am {whereabouts(situation.objects, situation.robot_pose)}."
     if not looks:
-        return f"I have not looked at anything with my camera yet, so I have seen nothing to tell. {here}"
+        return (
+            "I have not looked at anything with my camera yet, so I have seen nothing to tell. "
+            f"{here} Say “look around”, and I do."
+        )
     last = looks[-1]
     meant = looks[-1:] if _THERE.search(situation.message) else [d for d in looks if d.order == last.order]
     newest = [*{deed.label: deed for deed in meant}.values()][-_MOST:]

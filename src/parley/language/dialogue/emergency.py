@@ -72,6 +72,8 @@ def emergency(
     ends = [one for one in ends if {*_danger(one, lexicon)}.isdisjoint(names)]  # a "fire door" is none
     if "question" in acts or not ("alarm" in acts or any(_calls(one, lexicon, reader) for one in ends)):
         return None
+    if _is_calm(situation, tokens, lexicon):
+        return None
     order, told = _beside(text, pieces, lexicon, reader, again)
     serious = [one for one in told if _NUISANCE.search(one) is None]
     danger = any(_danger(one, lexicon) for one in told)
@@ -80,6 +82,29 @@ def emergency(
     if not order and not _concerns_people(text, lexicon):
         return _to_be_seen(situation, tokens, lexicon, again) or _alarm(situation, tokens, lexicon, order)
     return _alarm(situation, tokens, lexicon, order)
+
+
+def _is_calm(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon) -> bool:
+    """Whether each word of it only says that somebody is somewhere, and at rest: "she's in her room"."""
+    classes, places = lexicon.classes, situation.objects + situation.rooms
+    known = classes["small"] | classes["prepositions"] | classes["determiners"] | classes["being"]
+    known |= classes["persons"] | classes["calm"] | {*rooms(situation.objects)}
+    known |= {word for one in places for word in one.description.lower().split()}
+    known |= {word for room in rooms(situation.objects) for word in room.split()}
+    known -= {"lying", "under", "out"}
+    words = [token for token in tokens if token.is_word]
+    plain = (
+        {token.low, *lemmas(token.low)} & known
+        or token.text.istitle()
+        or is_somebody(token.low)
+        or token.low.endswith("room")
+        for token in words
+    )
+    return len(words) > _CRY and not _danger(situation.message, lexicon) and all(plain)
+
+
+_CRY: Final = 2
+"""So many words a cry has: "Ruth! Ruth!"."""
 
 
 def _concerns_people(text: str, lexicon: Lexicon) -> bool:

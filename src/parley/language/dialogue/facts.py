@@ -214,6 +214,10 @@ def taken_back(
     """The memories of what was told last, where "forget that" can mean nothing that was ordered since."""
     if _THAT.fullmatch(bare) is None:
         return ()
+    last = next((turn.content for turn in situation.history[-1:] if turn.role == "assistant"), "")
+    asked = [entry for entry in situation.memory if f"I remember: {entry.data.rstrip('.')}" in last]
+    if asked:
+        return tuple(asked)
     for turn in reversed(situation.history[-_TURNS:]):
         if turn.role != "operator" or turn.content.rstrip().endswith("?"):
             continue

@@ -109,7 +109,8 @@ def beforehand(
 def _agreed(situation: Situation, reading: Reading, again: Again) -> Decision | None:
     """What was asked last, where that is said yes to."""
     asked = situation.dialogue.asked
-    if asked is None or not asked.choices or "yes" not in reading.moves or reading.wishes:
+    there = all({*f.words} <= {"there"} for wish in reading.wishes for f in wish.fillers)
+    if asked is None or not asked.choices or "yes" not in reading.moves or not there:
         return None
     made = again(asked.choices[0])
     return replace(made, about=asked.words) if isinstance(made, Do) else made
@@ -137,7 +138,7 @@ def _about_itself(
         return Forget(tuple(entry.name for entry in lost), tuple(texts))
     if lost is not None and situation.memory and bare.startswith("forget") and not _known_plan(situation):
         return Answer("I know nothing of that, so there is nothing to forget.")
-    if is_emergency(situation) and NO_ALARM.fullmatch(bare):
+    if NO_ALARM.fullmatch(bare) and (is_emergency(situation) or bare.startswith("false alarm")):
         more = " Say “carry on” when I should go on." if situation.queue else ""
         return Answer(f"I am glad to hear that. I stay here.{more}")
     if is_thinking(situation.message if situation.question else bare):
@@ -239,9 +240,9 @@ def _beyond(
     orders = [wish for wish in reading.wishes if wish.act == "order" and not wish.negated]
     verbs = {word for wish in orders for word in lemmas(wish.verb.split(" ")[0])} if orders else set()
     first = next((token.low for token in tokens if token.low not in lexicon.classes["small"]), "")
-    verb = next(
-        iter((verbs | ({first} if "order" in reading.acts else set())) & lexicon.classes["impossible"]), ""
-    )
+    can = tokens[0].low == "can" and len(tokens) > 2 and tokens[1].low == "you"  # "can you dance?"
+    first = tokens[2].low if can else first if "order" in reading.acts else ""
+    verb = next(iter((verbs | {first}) & lexicon.classes["impossible"]), "")
     known = {
         word
         for info in situation.catalogue
@@ -294,7 +295,8 @@ def afterwards(
     if isinstance(made, Ask) and (asked := _asked_again(made, situation, reading, tokens)) is not None:
         return asked
     offers = isinstance(made, Ask) and made.offer
-    if isinstance(made, Ask | Answer) and not offers and _SOCIAL.fullmatch(bare):
+    ordered = any(wish.act == "order" for wish in reading.wishes)  # "thank you, go back"
+    if isinstance(made, Ask | Answer) and not (offers or ordered) and _SOCIAL.fullmatch(bare):
         if bare.startswith(("thank", "cheers", "that")):
             return Answer("You are welcome.")
         leaves = bare.startswith(("bye", "goodbye", "good night", "see you"))
@@ -469,6 +471,8 @@ def _thing_in(
         single = [name.things[0] for name in names if len(name.things) == 1]
         if single:
             return single[-1]
+    if spaces := [room for room in situation.rooms if {*room.description.lower().split()} <= low]:
+        return spaces[-1]
     room = next((room for room in rooms(situation.objects) if set(room.split()) <= low), "")
     inside = in_room(room, situation.objects, situation.robot_pose) if room else ()
     return inside[0] if inside else None

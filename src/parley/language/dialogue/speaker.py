@@ -24,16 +24,20 @@ _AT: Final = (
     r"(?P<side>at|in|on|near|by|beside|next to|close to|in front of|behind|around|inside) "
 )
 _HERE: Final = re.compile(
+    r"(?:good (?:morning|day|afternoon|evening)(?: \w+)?\W+)?(?:(?:my name is|this is|it's) \w+\W+)?"
     r"(?:(?:ok|okay|well|oh|yes|hello|hi|hey|sorry|and|so|please)\W+)*(?:i'm|i am|we're|we are) "
     r"(?:(?:still|now|just|currently) )*(?:(?:sitting|standing|lying|waiting|working|resting|staying) )?"
     rf"{_AT}(?P<where>.+)"
 )
 _ANSWER: Final = re.compile(
     r"(?:(?:ok|okay|well|oh|yes|sorry|so|please|it is|it's|that is|that's|i'm|i am|we're|we are|probably|"
+    r"he is|he's|she is|she's|they are|they're|"
     r"sitting|standing)\W+)*"
     rf"(?:{_AT})?(?P<where>.+)"
 )
-_DETERMINERS: Final = frozenset({"the", "a", "an", "my", "our", "your", "this", "that", "please", "now"})
+_DETERMINERS: Final = frozenset(
+    {"the", "a", "an", "my", "our", "your", "his", "her", "their", "this", "that", "please", "now"}
+)
 
 
 class Again(Protocol):

@@ -1,0 +1,105 @@
+"""What is said in passing: greetings with a place, thanks with an order, looks at nothing that is named."""
+
+from __future__ import annotations
+
+import pytest
+
+from parley.language.base import Situation, Turn
+from parley.language.builtin.decision import Answer, Ask, Do, Forget, Remember
+from parley.language.builtin.engine import BuiltinLanguage
+from parley.language.dialogue.state import Asked, Dialogue
+from parley.messages.memory import MemoryEntry
+from parley.world.object_map import MapObject
+from tests.language.builtin.test_sights import ABLE
+
+ENGINE = BuiltinLanguage()
+THINGS = (
+    MapObject("l", "long bench in the hall", 2.0, 1.0),
+    MapObject("s", "short bench in the hall", 3.0, 1.0),
+    MapObject("g", "gate", 8.0, 1.0),
+)
+ROOMS = (MapObject("hall", "hall", 2.0, 2.0), MapObject("shop", "paint shop", 8.0, 2.0))
+
+
+def at(message: str, **more: object) -> Situation:
+    return Situation(
+        message,
+        objects=THINGS,
+        rooms=ROOMS,
+        robot="Ada",
+        robots=("Ada",),
+        catalogue=ABLE,
+        **more,  # type: ignore[arg-type]
+    )
+
+
+def calls(message: str, **more: object) -> list[str]:
+    made = ENGINE.decide(at(message, **more))
+    assert isinstance(made, Do), made
+    return [f"{d.skill.action.name} {' '.join(map(str, d.arguments.values()))}".strip() for d in made.deeds]
+
+
+@pytest.mark.parametrize(
+    "message", ["she's in her classroom", "Kim is sleeping in the hall", "a person is resting in the hall"]
+)
+def test_somebody_at_rest_somewhere_is_no_emergency(message: str) -> None:
+    made = ENGINE.decide(at(message))
+    assert not (isinstance(made, Ask) and made.alarms)
+
+
+@pytest.mark.parametrize(
+    "message",
+    ["Kim is lying in the hall and does not move", "Kim! Kim!! help", "she is unconscious in her classroom"],
+)
+def test_somebody_in_need_still_is_one(message: str) -> None:
+    made = ENGINE.decide(at(message))
+    assert isinstance(made, Ask) and made.alarms
+
+
+def test_a_greeting_with_a_name_does_not_hide_where_somebody_is() -> None:
+    made = ENGINE.decide(at("Good morning Ada. My name is Ana, I'm at the gate"))
+    assert isinstance(made, Remember) and made.told[0].text == "the operator is at the gate"
+
+
+def test_thanks_do_not_hide_an_order() -> None:
+    assert calls("thank you, go to the gate") == ["drive_to gate"]
+    made = ENGINE.decide(at("thank you, go back to where you charge"))
+    assert isinstance(made, Ask)
+
+
+@pytest.mark.parametrize("message", ["look around", "have a look around please"])
+def test_who_is_to_look_at_nothing_named_looks_where_it_is(message: str) -> None:
+    assert calls(message) == ["look what can be seen here"]
+
+
+def test_a_look_that_is_only_led_to_is_one_look() -> None:
+    assert calls("please look around and tell me what is at the gate") == ["look what is at the gate"]
+
+
+def test_which_of_two_is_asked_of_a_question_that_only_a_look_answers() -> None:
+    made = ENGINE.decide(at("is anybody on the bench?"))
+    assert isinstance(made, Ask) and len(made.choices) == 2
+
+
+def test_what_it_is_asked_to_be_able_to_do_and_cannot_is_said() -> None:
+    made = ENGINE.decide(at("can you dance?"))
+    assert isinstance(made, Answer) and "cannot dance" in made.text
+
+
+def test_what_was_just_said_to_be_remembered_can_be_forgotten() -> None:
+    told = MemoryEntry(name="nuts", data="Kim is allergic to nuts")
+    turns = (Turn("operator", "what do you know about Kim"), Turn("assistant", f"I remember: {told.data}."))
+    made = ENGINE.decide(at("forget that", memory=(told,), history=turns))
+    assert isinstance(made, Forget) and made.names == ("nuts",)
+
+
+def test_yes_go_there_takes_what_was_offered() -> None:
+    asked = Dialogue(
+        asked=Asked("smoke in the hall", ("Go to the hall", "Stay here"), alarm=True), now_unix_ms=1
+    )
+    assert calls("yes go there", dialogue=asked) == ["drive_to hall"]
+
+
+def test_an_alarm_that_was_none_is_taken_as_that_later_too() -> None:
+    made = ENGINE.decide(at("false alarm, he is fine"))
+    assert isinstance(made, Answer) and "glad" in made.text
