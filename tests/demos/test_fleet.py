@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -10,10 +11,13 @@ import pytest
 
 from parley.config import SystemConfig
 from parley.demos.catalogue import load_demo
+from parley.language.base import Language
+from parley.language.builtin.engine import BuiltinLanguage
+from parley.language.scripted import ScriptedLanguage
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, SystemCommand
 from parley.messages.principal import person
-from parley.messages.status import ActorStatus
+from parley.messages.status import ActorStatus, StopCommand
 from parley.messages.team import WAITS_FOR, MissionList, MissionPart
 from parley.messages.wire import decode
 from tests.demos.house import PATIENCE_S, House, played, running
@@ -22,9 +26,12 @@ ROBOTS = ("Spot", "TIAGo", "Leo")
 
 
 @asynccontextmanager
-async def hall(variant: str = "", **settings: object) -> AsyncIterator[House]:
+async def hall(
+    variant: str = "", language: Language | None = None, **settings: object
+) -> AsyncIterator[House]:
     demo = load_demo("fleet")
-    system = demo.system(SystemConfig(speed=None).changed(settings), demo.story.variant(variant))
+    config = SystemConfig(speed=None).changed(settings)
+    system = demo.system(config, demo.story.variant(variant), language=language)
     async with running(system) as home:
         yield home
 
@@ -87,6 +94,36 @@ async def test_what_is_not_certain_is_asked_and_nothing_begins() -> None:
         for text in ("split the areas between you", "let Leo do that", "one of you go to the moon"):
             assert (await home.say(text, "Spot")).message.endswith(("?", "in full."))
         assert not any(goals(home).values())
+
+
+async def test_who_is_stopped_while_the_order_is_understood_is_told_of_as_stopped() -> None:
+    language, read = ScriptedLanguage(BuiltinLanguage()), asyncio.Event()
+    language.will("interpret", read)
+    async with hall(language=language) as home:
+        home.observer.say("Leo goes to the pump, Spot goes to Area B", "TIAGo")
+        await home.observer.until(lambda: bool(language.asked), timeout_s=PATIENCE_S)
+        stop = StopCommand(targets=("Leo",), id="stop", by=person("Kim"))
+        home.observer.publish(topics.STOP, stop)
+        await home.observer.until(lambda: bool(home.observer.stop_reports), timeout_s=PATIENCE_S)
+        read.set()
+
+        def replies() -> list[str]:
+            return [said.message for said in home.observer.said if said.type == "response"]
+
+        await home.observer.until(lambda: bool(replies()), timeout_s=PATIENCE_S)
+        assert "Leo was stopped meanwhile, so nobody does its part: Go to “pump”." in replies()[0]
+        assert goals(home)["Leo"] == []
+
+
+async def test_why_it_is_that_robot_is_told_by_whoever_is_asked() -> None:
+    async with hall() as home:
+        await home.say("one of you go to the pump", "Leo")
+        why = "Spot is nearest to “pump”"
+        assert why in (await home.say("why?", "Spot")).message
+        for text in ("why?", "why Spot?", "why not Leo?", "how did you choose?"):
+            assert why in (await home.say(text, "Leo")).message
+        await home.say("let Leo go to Area C", "Spot")
+        assert "“let Leo go to Area C”" in (await home.say("why Leo?", "Spot")).message
 
 
 async def test_one_goes_the_others_wait_and_robots_are_asked_about() -> None:

@@ -184,10 +184,10 @@ class Answering:
             if ruling.outcome == "asked":
                 self.say((name,), together(wish_of(ruling.lines, ruling.why), SHALL_I), "info")
 
-    async def submit(self, order: ChatAction, said: ChatInput) -> Sequence[PlanRuling] | None:
-        """Hand an order with an id on, and hear what became of it; see `Rulings.about`."""
+    async def submit(self, order: ChatAction, said: ChatInput, why: str = "") -> Sequence[PlanRuling] | None:
+        """Hand an order with an id on, `why` it is this robot; what became of it, see `Rulings.about`."""
         self._rulings.expect(order)
-        self._order(order, said)
+        self._order(order, said, why)
         return await self._rulings.about(order)
 
     async def _carry_out(
@@ -302,8 +302,8 @@ class Answering:
         )
         self._node.publish(topics.CHAT_FEEDBACK, feedback)
 
-    def _order(self, order: ChatAction, said: ChatInput) -> None:
-        self._known.on_order(said, order)
+    def _order(self, order: ChatAction, said: ChatInput, why: str = "") -> None:
+        self._known.on_order(said, order, why)
         self._node.publish(topics.CHAT_ACTION, order)
 
     def _waits_behind_a_question(self, order: ChatAction, situation: Situation) -> bool:

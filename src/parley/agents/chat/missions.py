@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import uuid
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Final
 
 from parley.agents.base import Node
@@ -18,6 +19,10 @@ from parley.agents.presence import Presence
 from parley.errors import LanguageError
 from parley.gate.cards import labels_of, lines_of
 from parley.gate.orders import Heard, admit
+from parley.language.builtin.tokens import tokenize
+from parley.language.dialogue.questions import plain, question_of
+from parley.language.dialogue.state import Order
+from parley.language.dialogue.team import TeamWish
 from parley.latest import Latest
 from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, SystemCommand
@@ -26,6 +31,18 @@ from parley.messages.team import MissionInfo, MissionPart
 from parley.sentences import Sentence, sentence, together
 
 __all__ = ["Missions"]
+
+
+@dataclass(frozen=True, slots=True)
+class _Decided:
+    """How work was given out."""
+
+    words: str
+    reasons: Mapping[str, Sentence]
+    """By robot its part and why it has it, if that was left to the robots."""
+    behind: Order | None
+    """What the robot that keeps this had been told last then."""
+
 
 WOULD_DO: Final = sentence("This is how we would do it.")
 DOES: Final = sentence("This is how we do it.")
@@ -60,6 +77,8 @@ class Missions:
         """By robot who else was asked about in the same breath."""
         self._teams: Latest[str, tuple[str, ...]] = Latest()
         """By robot the team whose work it has a part of."""
+        self._decided: Latest[str, _Decided] = Latest()
+        """By robot the last work that it heard given out."""
         self._relieves: Latest[str, ChatAction] = Latest()
         """By robot what is given up once its yes is there."""
         self._told_of: Latest[tuple[str, str], bool] = Latest()
@@ -119,7 +138,10 @@ class Missions:
             team: All it was said to, if that is more than one.
         """
         wish = self._talk.wish(said.message, target)
-        if wish is None and len(team) < 2:
+        if (reasons := self._reasons(target, said, wish)) is not None:
+            self._say((target,), reasons, said)
+            return True
+        if len(team) < 2 if wish is None else wish.kind == "why":
             return False
         try:
             async with self._answering.thinking(target, said):
@@ -135,6 +157,30 @@ class Missions:
             self._say((target,), mission.text, said, mission.choices)
         return True
 
+    def _reasons(self, target: str, said: ChatInput, wish: TeamWish | None) -> Sentence | None:
+        """Why work went to those who have it; None if that is not asked, or nothing is known of it.
+
+        A mere "why?" whoever has a part answers for itself.
+        """
+        robot = wish.robot if wish is not None else ""
+        decided = self._decided.get(target)
+        if wish is not None:
+            decided = next(reversed(self._decided.values()), None) if wish.kind == "why" else None
+        elif decided is not None and not self._is_about(decided, target, said):
+            decided = None
+        if decided is None:
+            return None
+        told = [decided.reasons[robot]] if robot in decided.reasons else [*decided.reasons.values()]
+        return (
+            together(*told) if told else sentence("Because you asked for it: “{words}”.", words=decided.words)
+        )
+
+    def _is_about(self, decided: _Decided, target: str, said: ChatInput) -> bool:
+        """Whether a mere "why?" means what a robot has only heard given to others."""
+        asked = question_of(plain(tokenize(said.message)))
+        newest = self._known.log(target).newest_order
+        return asked is not None and asked.topic == "why" and not asked.about and newest is decided.behind
+
     async def _carry_out(
         self, target: str, said: ChatInput, mission: Mission, halts: Mapping[str, int]
     ) -> None:
@@ -144,13 +190,18 @@ class Missions:
             self._say((target,), texts.CANNOT, said)
             return
         ids = {order.targets[0]: order.id for order in orders}
+        before = {name: self._known.log(name).newest_order for name in (target, *ids)}
         await self._talk.give_on(target, said, tuple(ids))
         self._follow(said, mission, ids)
+        reasons = {share.robot: share.why for share in mission.shares}
         rulings: dict[str, PlanRuling] = {}
+        halted: set[str] = set()
         for order in orders:
-            if self._answering.halted_since(halts, order.targets[0]):
+            name = order.targets[0]
+            if self._answering.halted_since(halts, name):
+                halted.add(name)
                 continue
-            for ruling in await self._answering.submit(order, said) or ():
+            for ruling in await self._answering.submit(order, said, str(reasons.get(name, ""))) or ():
                 rulings[ruling.target] = ruling
         for name, order_id in ids.items():
             if name not in rulings or rulings[name].outcome == "refused":
@@ -159,14 +210,19 @@ class Missions:
         team = self._presence.names() if any(share.why for share in mission.shares) else ()
         for share in mission.shares if team else ():
             self._teams[share.robot] = team
-        told: list[Sentence | str] = [self._told(share, rulings.get(share.robot)) for share in mission.shares]
+        told = [
+            self._stopped(share) if share.robot in halted else self._told(share, rulings.get(share.robot))
+            for share in mission.shares
+        ]
         asked = frozenset(name for name, ruling in rulings.items() if ruling.outcome == "asked")
         for name in asked:
             self._mates[name] = asked
         reply = together(WOULD_DO if asked else DOES, *told, mission.text, SHALL_I if asked else "")
-        robots = tuple(dict.fromkeys((target, *(share.robot for share in mission.shares))))
+        robots = tuple(dict.fromkeys((target, *ids)))
+        given = {share.robot: part for share, part in zip(mission.shares, told, strict=True) if share.why}
         for name in robots:
             self._known.note(name, said.message, reply)
+            self._decided[name] = _Decided(said.message, given, before[name])
         self._say(robots, reply, said)
 
     def _follow(self, said: ChatInput, mission: Mission, ids: Mapping[str, str]) -> None:
@@ -250,6 +306,11 @@ class Missions:
             if name not in ids:  # it is given on: what waited here for a yes waits no more
                 found.append(admitted.order.model_copy(update={"targets": (name,), "replaces": proposal}))
         return found
+
+    def _stopped(self, share: Share) -> Sentence:
+        """A part whose robot was stopped while it was found out who does what."""
+        text = "{robot} was stopped meanwhile, so nobody does its part: {steps}."
+        return sentence(text, robot=share.robot, steps=counted(self._lines(share)))
 
     def _told(self, share: Share, ruling: PlanRuling | None) -> Sentence:
         """A part in words: what will really be done of it, and why by that robot."""

@@ -91,16 +91,15 @@ class Situations:
         """A robot's step began, came further or ended."""
         self.log(event.actor).on_event(event)
 
-    def on_order(self, said: ChatInput, order: ChatAction) -> None:
-        """Somebody's words became steps for robots, or changes of what they do."""
+    def on_order(self, said: ChatInput, order: ChatAction, why: str = "") -> None:
+        """Somebody's words became steps for robots, or changes of what they do; `why` it is these robots."""
         plans = [item for item in order.system_cmd if item.command not in ("add_memory", "remove_memory")]
         for target in order.targets if order.queue or plans else ():
             self._changes[target] = self.changes(target) + 1
         for target in order.targets if order.queue else ():
             pose = _pose(self._presence.get(target))
-            asked = Order(
-                order.words or said.message, said.who.name, self._clock.unix_ms(), tuple(order.queue), pose
-            )
+            words, now_ms = order.words or said.message, self._clock.unix_ms()
+            asked = Order(words, said.who.name, now_ms, tuple(order.queue), pose, why)
             self.log(target).on_order(asked)
 
     def catalogue(self, target: str) -> Sequence[ActionInfo]:

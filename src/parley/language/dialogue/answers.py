@@ -266,7 +266,9 @@ def _why(situation: Situation, about: str) -> str:
     if dialogue.plan in ("paused", "held"):
         return _why_stopped(situation, about)
     if dialogue.orders:
-        return f"{_wanted(dialogue.orders[-1])}."
+        last = dialogue.orders[-1]
+        chosen = f" I was chosen for it: {last.why}." if last.why else ""
+        return f"{_wanted(last)}.{chosen}"
     return "Nobody has asked me to do anything yet."
 
 

@@ -67,6 +67,11 @@ class Log:
         self._asked = (replace(asked, alarm=alarm), _ASKED_TURNS)
 
     @property
+    def newest_order(self) -> Order | None:
+        """What it was told last."""
+        return self._orders[-1] if self._orders else None
+
+    @property
     def has_just_asked(self) -> bool:
         """Whether nothing was said since an order was asked about."""
         return self._asked is not None and self._asked[1] == _ASKED_TURNS

@@ -26,6 +26,8 @@ class Order:
     calls: tuple[ActionCall, ...] = ()
     pose: Pose2D | None = None
     """Where the robot was then."""
+    why: str = ""
+    """Why it was this robot, if that was left to the robots."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -53,13 +53,13 @@ class Part:
 class TeamWish:
     """How a message spreads work over robots, or what it asks about them."""
 
-    kind: Literal["share", "parts", "nearest", "about"]
+    kind: Literal["share", "parts", "nearest", "about", "why"]
     parts: tuple[Part, ...] = ()
     """For `share` one, of all."""
     about: str = ""
     """For `nearest` the place, for `about` the question as that robot would be asked."""
     robot: str = ""
-    """For `about`; empty: each of them is asked."""
+    """For `about`, empty: each of them is asked. For `why` who was chosen or was not, if one is named."""
     one_each: bool = False
     """For `share`: nobody takes more than one."""
     count: int = 0
@@ -168,6 +168,8 @@ class _Words:
         for pattern in _data()["nearest"]:
             if found := self._match(pattern, bare):
                 return TeamWish("nearest", about=found["place"])
+        if found := self._match(self.of("chosen"), bare):
+            return TeamWish("why", robot=self._robots.get((found["robot"] or "").lower(), ""))
         if self._match(self.of("doing"), bare):
             return TeamWish("about", about="what are you doing?")
         named = re.findall(rf"\b{self._names}\b", bare, re.IGNORECASE)
