@@ -10,7 +10,7 @@ from parley.messages.chat import ActionCall, Flow, FlowIf
 from parley.messages.pvf import Parameter
 from parley.messages.status import ActionInfo, PlanStep
 from parley.team.outlook import Outlook, survey
-from parley.team.sharing import alike, left_of, place_of, shared, tasks_of, why
+from parley.team.sharing import alike, in_turn, is_search, left_of, place_of, shared, tasks_of, why
 from parley.world.geometry import Pose2D
 from parley.world.occupancy import NO_MAP
 
@@ -41,6 +41,16 @@ def test_only_the_same_work_at_several_places_is_shared() -> None:
     assert not alike(tasks_of([*visit("gate", "Look"), *visit("desk")], CATALOGUE))  # fetch, and bring
     depends = ActionCall(name="Look", flow=Flow.model_validate({"if": FlowIf(step=1)}))
     assert len(tasks_of([*visit("gate", "Look"), *visit("desk"), depends], CATALOGUE)) == 1
+
+
+def test_a_search_is_shared_by_places_and_each_robot_looks_no_longer_than_needed() -> None:
+    tasks = tasks_of([*visit("gate", "Look"), *visit("desk", "Look"), *visit("door", "Look")], CATALOGUE)
+    whole = in_turn(tasks, search=True)
+    assert [call.flow and call.flow.if_ and call.flow.if_.step for call in whole] == [None] * 3 + [2] * 3 + [
+        5
+    ] * 3
+    assert is_search(whole) and not is_search(in_turn(tasks, search=False))
+    assert tasks_of(whole, CATALOGUE) == tasks
 
 
 def test_what_is_left_begins_anew_without_what_the_other_robot_found_out() -> None:

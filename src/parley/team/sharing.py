@@ -6,13 +6,13 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Final
 
-from parley.messages.chat import ActionCall
+from parley.messages.chat import ActionCall, Flow, FlowIf
 from parley.messages.status import ActionInfo, PlanStep
 from parley.sentences import Sentence, sentence
 from parley.team.allotment import allot
 from parley.team.outlook import Outlook, Task
 
-__all__ = ["alike", "left_of", "place_of", "shared", "tasks_of", "why"]
+__all__ = ["alike", "in_turn", "is_search", "left_of", "place_of", "shared", "tasks_of", "why"]
 
 OVER: Final = ("finished", "skipped", "stopped")
 """States of a step that is over and not to be done again."""
@@ -21,12 +21,32 @@ WEAK: Final = 0.15
 
 
 def tasks_of(calls: Sequence[ActionCall], catalogue: Sequence[ActionInfo]) -> list[Task]:
-    """What of a row of steps may go to different robots; all in one where steps depend on others."""
+    """What of a row of steps may go to different robots; all in one where steps depend on others.
+
+    Of a search, each place of which is gone to if the thing is not at the one before, each place may.
+    """
     finding = {info.name for info in catalogue if info.only_finds}
     starts = [at for at, call in enumerate(calls) if call.name in finding]
-    if any(call.flow is not None for call in calls) or not starts or starts[0] != 0:
+    if not starts or starts[0] != 0:
         return [tuple(calls)]
-    return [tuple(calls[at:end]) for at, end in zip(starts, [*starts[1:], len(calls)], strict=True)]
+    bare = [call.model_copy(update={"flow": None}) for call in calls]
+    tasks = [tuple(bare[at:end]) for at, end in zip(starts, [*starts[1:], len(calls)], strict=True)]
+    return tasks if in_turn(tasks, search=is_search(calls)) == tuple(calls) else [tuple(calls)]
+
+
+def is_search(calls: Sequence[ActionCall]) -> bool:
+    """Whether some of these steps depend on others."""
+    return any(call.flow is not None for call in calls)
+
+
+def in_turn(tasks: Sequence[Task], *, search: bool) -> tuple[ActionCall, ...]:
+    """One robot's tasks as a row of steps; of a `search` those are done that are needed yet."""
+    calls: list[ActionCall] = []
+    for task in tasks:
+        seen = FlowIf.model_validate({"step": len(calls) - 1, "result": False}) if calls and search else None
+        flow = Flow.model_validate({"if": seen}) if seen is not None else None
+        calls += [call.model_copy(update={"flow": flow}) if flow is not None else call for call in task]
+    return tuple(calls)
 
 
 def alike(tasks: Sequence[Task]) -> bool:

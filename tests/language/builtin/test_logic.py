@@ -238,6 +238,14 @@ async def test_a_name_that_several_places_have_is_asked_about_before_one_is_look
 
 async def test_a_place_is_looked_through_for_something_else() -> None:
     assert await plan("check gate 2 for leaks") == ["go gate 2", "look gate 2 for leaks"]
+    every = [step for number in "123" for step in (f"go gate {number}", f"look gate {number} for parcels")]
+    assert await plan("look for parcels at gates 1, 2 and 3") == every
+    two = ["go pump", "look pump for parcels", "go desk", "look desk for parcels"]
+    assert await plan("look for parcels at the pump and at the desk") == two
+    until_seen = ["go gate 1", "look parcel", "unless 2: go gate 2", "unless 2: look parcel"]
+    assert await plan("search gates 1 and 2 for the parcel") == until_seen
+    assert await plan("search gates 1 and 2 for the parcel, and if you find it, go to the desk") == []
+    assert await plan("look for parcels at the pump and then at the desk") == []
     assert await plan("inspect gates 1 and 2 for strange parcels") == [
         step for name in ("gate 1", "gate 2") for step in (f"go {name}", f"look {name} for strange parcels")
     ]  # fmt: skip

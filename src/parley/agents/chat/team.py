@@ -27,7 +27,7 @@ from parley.messages.chat import ActionCall, ChatAction, ChatInput
 from parley.messages.status import ActorStatus, PlanProposal
 from parley.sentences import Sentence, listed, sentence, together
 from parley.team.outlook import Outlook, Survey, Task
-from parley.team.sharing import alike, left_of, place_of, shared, tasks_of, why
+from parley.team.sharing import alike, in_turn, is_search, left_of, place_of, shared, tasks_of, why
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
@@ -463,6 +463,6 @@ class _Work:
             return Mission(text=text)
         for name, route in routes.items():
             reason = why(name, route[0], tasks.index(route[0]), outlooks, able, self._batteries)
-            calls = tuple(call for task in route for call in task)
+            calls = in_turn(route, search=len(route) > 1 and is_search(first.calls))
             self._shares.append(Share(name, calls, reason, first.needs_yes))
         return None

@@ -11,6 +11,7 @@ from parley.language.builtin.doing import Doing, slot_of
 from parley.language.builtin.fillers import Filler
 from parley.language.builtin.grounding import WITHIN, Value, is_somebody
 from parley.language.builtin.handling import HANDLED
+from parley.language.builtin.judging import asked
 from parley.language.builtin.lexicon import lemmas, stem
 from parley.language.builtin.own_action import OwnAction
 from parley.language.builtin.owned import owned
@@ -61,7 +62,8 @@ class Builder(Doing):
         if wish.frame == "LOOK" and {*values} == {*"LK"} and values["L"].each:
             values["T"] = values.pop("L")  # places that are looked at for something: each is looked at
         several = [value for value in values.values() if value.each]
-        if len(several) > 1 or (several and (wish.frame in _ONCE or {*"LS"} & {*values})):
+        through = wish.frame == "FIND" and {*values} == {*"TL"}
+        if len(several) > 1 or (several and not through and (wish.frame in _ONCE or {*"LS"} & {*values})):
             return Ask(f"Do you mean all of them: {several[-1].said}? Please say it for one after the other.")
         for filler in wish.all("M") + wish.all("P"):
             self.unheeded(filler.text)
@@ -278,6 +280,8 @@ class Builder(Doing):
 
     def _for_each(self, wish: Wish, values: dict[str, Value], several: Value) -> list[Deed] | Ask:
         """The same for one after the other."""
+        if wish.frame == "FIND" and several is values.get("L"):
+            return self._searched(wish, values)
         found: list[Deed] = []
         for one in several.each:
             made = self._planned(
@@ -287,6 +291,24 @@ class Builder(Doing):
                 return made
             found += made
         self.last_thing = several
+        return found
+
+    def _searched(self, wish: Wish, values: dict[str, Value]) -> list[Deed] | Ask:
+        """Looking for something at several places: for boxes at each, for the red one until it is seen."""
+        places = values["L"]
+        if asked(f"{places.argument} for {values['T'].argument}").unwanted and "LOOK" in self.skills:
+            for_it = {"T": places, "K": values["T"]}
+            parts = [self._looked_through({**for_it, "T": place}) for place in places.each]
+        else:
+            parts = [self._planned(wish, {**values, "L": place}) for place in places.each]
+        found: list[Deed] = []
+        seen: Deed | None = None
+        for made in parts:
+            if isinstance(made, Ask):
+                return made
+            found += made if seen is None else [replace(deed, check=seen, holds=False) for deed in made]
+            seen = found[-1] if made[-1].frame == "FIND" else None
+        self.last_thing, self.last_check = values["T"], None  # no single look says whether it was seen
         return found
 
     def times(self, wish: Wish) -> int | Ask:

@@ -57,7 +57,8 @@ def doubt(
             what = f"“{wish.verb}”" if wish.verb else f"“{wish.fillers[0].text}”"
             return Ask(f"I am not sure what you mean by {what}. Can you say it in other words?")
     for filler in reading.loose:
-        if filler.role not in ("A", "T", "L", "M"):
+        second = filler.role == "L" and any(w.start < filler.start and w.has("L") for w in reading.wishes)
+        if second or filler.role not in ("A", "T", "L", "M"):
             return Ask(f"I do not understand what “{filler.text}” belongs to. Can you say it in other words?")
     return None
 

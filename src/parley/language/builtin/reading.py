@@ -39,6 +39,7 @@ class Reading:
 def read(parse: Parse, lexicon: Lexicon) -> Reading:
     """What is wished and told."""
     wishes: list[Wish] = []
+    parse = replace(parse, spans=tuple(_listed_on(parse, span) for span in parse.spans))
     spans = [part for span in _ordered_alone(parse, _merged(parse)) for part in _by_way(parse, span, lexicon)]
     fillers = [_filler(parse, span, lexicon) for span in spans]
     for number, verb in enumerate(parse.verbs):
@@ -119,6 +120,11 @@ def _merged(parse: Parse) -> list[Span]:
             head = span.head if span.role in "NH" else last.head
             found[-1] = replace(last, end=span.end, head=head, share=min(last.share, span.share))
             continue
+        if last is not None and last.role == span.role == "L" and span.owner in (None, last.owner):
+            between = [token.low for token in parse.tokens[last.end : span.start]]
+            if {*between} <= {",", "and"} and "and" in between:  # "at the desk and at the gate"
+                found[-1] = replace(last, end=span.end, share=min(last.share, span.share))
+                continue
         loose = last is not None and last.owner is None and span.owner is None and last.end == span.start
         if last is not None and loose and last.role == "T" and span.role == "L":
             found[-1] = replace(last, end=span.end)
@@ -136,6 +142,21 @@ def _merged(parse: Parse) -> list[Span]:
             span = replace(span, owner=nearest)
         found.append(span)
     return found
+
+
+def _listed_on(parse: Parse, span: Span) -> Span:
+    """With the last of a row of letters or numbers that nothing else claims: "bays 1, 2 and 3"."""
+    last, *behind = parse.tokens[span.end - 1 : span.end + 2]
+    row = [token.low if token.low == "and" else _mark(token.text) for token in (last, *behind)]
+    free = all(other.start > span.end + 1 or other.end <= span.end for other in parse.spans)
+    if span.role not in "TGL" or row not in (["A", "and", "A"], ["1", "and", "1"]) or not free:
+        return span
+    return replace(span, end=span.end + 2)
+
+
+def _mark(text: str) -> str:
+    """What kind of name a letter or a number is."""
+    return "1" if text.isdigit() else "A" if len(text) == 1 and text.isupper() and text != "I" else ""
 
 
 _WAYS = frozenset({"past", "via", "through", "along", "around", "by", "across"})
