@@ -104,6 +104,13 @@ async def test_by_default_a_robot_goes_on_and_says_so_once() -> None:
         assert [said.message.split(".")[0] for said in here.said] == ["Nobody is connected any more"]
 
 
+async def test_nobody_says_that_a_robot_goes_on_which_is_gone() -> None:
+    async with ward() as here:
+        here.robots.tell(topics.ACTOR_STATUS, ActorStatus(actor="A", state="leaving"))
+        await here.alone()
+        assert here.said == []
+
+
 @pytest.mark.parametrize(("choice", "order"), [("hold", None), ("go_on", "hold")])
 async def test_a_robot_waits_if_the_system_or_the_order_says_so(
     choice: Unattended, order: Unattended | None

@@ -17,7 +17,7 @@ from parley.language.scripted import ScriptedLanguage
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, SystemCommand
 from parley.messages.principal import person
-from parley.messages.status import ActorStatus, StopCommand
+from parley.messages.status import ActorStatus, PoseInfo, StopCommand
 from parley.messages.team import WAITS_FOR, MissionList, MissionPart
 from parley.messages.wire import decode
 from tests.demos.house import PATIENCE_S, House, played, running
@@ -325,6 +325,15 @@ async def test_what_a_robot_leaves_undone_is_offered_to_the_best_of_the_others()
         assert set(await home.done("TIAGo")) <= {"finished", "stopped"}
         assert set(await home.done(taker)) == {"finished"}
         assert home.distance_m("area_a", taker) < 1.6
+
+
+async def test_of_a_robot_that_is_gone_nobody_answers_for_it() -> None:
+    async with hall() as home:
+        gone = ActorStatus(actor="Ada", pose=PoseInfo(x=1.0, y=1.0, yaw=0.0))
+        home.observer.publish(topics.ACTOR_STATUS, gone)
+        home.observer.publish(topics.ACTOR_STATUS, gone.model_copy(update={"state": "leaving"}))
+        for question in ("where is Ada?", "how is the work going?", "Ada, where are you?"):
+            assert "Ada is not there at the moment" in (await home.say(question, "Leo")).message
 
 
 async def test_what_one_finds_the_other_is_asked_to_look_for_no_longer() -> None:

@@ -121,6 +121,11 @@ class Presence:
         """`names`, and who left: a stop of all means them, too."""
         return tuple(sorted({*self.names(), *self._left}))
 
+    @property
+    def gone(self) -> frozenset[str]:
+        """Who was there and left: nobody speaks for them."""
+        return frozenset(self._left)
+
     def resolve(self, name: str) -> str | None:
         """The robot that `name` means, whatever its capitals; None if there never was one.
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Final
 
 from parley.agents.chat.situations import Situations
+from parley.agents.chat.texts import not_there
 from parley.agents.planner.flow import pending_calls
 from parley.agents.presence import Presence
 from parley.gate.orders import UNSURE_OF_ALL
@@ -153,7 +154,8 @@ class TeamTalk:
 
     async def _asked(self, wish: TeamWish, said: ChatInput) -> Mission | None:
         """A question about one robot or all, answered by whom it is about; None: that takes deeds."""
-        names = (wish.robot,) if wish.robot else self._presence.names()
+        asked = (wish.robot,) if wish.robot else self._presence.ever()
+        names = [name for name in asked if self._presence.is_there(name)]
         situations = [await self._situation(robot, wish.about, said) for robot in names]
         answers = await asyncio.gather(*map(self._language.interpret, situations))
         if any(answer.queue for answer in answers):
@@ -162,7 +164,8 @@ class TeamTalk:
             sentence("{robot} says: “{answer}”", robot=robot, answer=answer.message_response)
             for robot, answer in zip(names, answers, strict=True)
         ]
-        return Mission(text=together(*told))
+        gone = [not_there(name) for name in asked if name not in names]
+        return Mission(text=together(*told, *gone))
 
     async def _situation(self, robot: str, words: str, said: ChatInput) -> Situation:
         found = await self._known.of(robot, words, said, sees_pictures=False, proposal=self._offered(robot))

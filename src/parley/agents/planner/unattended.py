@@ -6,6 +6,7 @@ import asyncio
 from typing import Any, ClassVar, Final
 
 from parley.agents.base import Node
+from parley.agents.presence import Presence, linked_to
 from parley.clock import Clock
 from parley.latest import Latest
 from parley.messages import topics
@@ -67,7 +68,7 @@ class UnattendedPlans(Node):
     def __init__(self, transport: Transport, clock: Clock, choice: Unattended, after_s: float) -> None:
         super().__init__(transport)
         self._clock, self._choice, self._after_s = clock, choice, after_s
-        self._absence = Absence()
+        self._absence, self._presence = Absence(), Presence(clock, linked=linked_to(transport))
         self._choices: Latest[str, Unattended] = Latest()
         """As the newest order of each robot says."""
         self._running: set[str] = set()
@@ -83,6 +84,7 @@ class UnattendedPlans(Node):
         await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._on_status)
         await self.subscribe_plans(self._on_plan)
         self.spawn(self._watch(), name="watch")
+        self.spawn(self._presence.watch(), name="presence")
 
     def look(self) -> None:
         """See whether somebody is there, and what is to be done if not."""
@@ -109,6 +111,7 @@ class UnattendedPlans(Node):
             self._choices |= dict.fromkeys(said.targets, said.unattended)
 
     def _on_status(self, status: ActorStatus) -> None:
+        self._presence.on_status(status)
         if status.pose is not None:
             self._homes.setdefault(status.actor, status.pose)
 
@@ -132,6 +135,8 @@ class UnattendedPlans(Node):
         elif choice == "go_home" and home is not None:
             drive = ActionCall(name="NavigateTo", input_parameters=_pose(home), reason=self.spoken(_REASON))
             self._order(robot, "clear", drive)
+        if robot in self._presence.gone:
+            return  # nobody knows what it does
         text = self.spoken(sentence(_TEXTS[choice]))
         self.publish(topics.CHAT_FEEDBACK, ChatFeedback(message=text, targets=(robot,), type="info"))
 
