@@ -212,9 +212,14 @@ async def test_what_another_robot_does_already_is_asked_about_and_nothing_older_
         asked = await home.say("no, let Leo do that", "Spot")
         assert asked.choices == ("Let Leo take over from TIAGo",)
         assert goals(home) == {"Spot": ["pump"], "TIAGo": ["Area A"], "Leo": []}
+        told = await home.say("one of you go to the pump, the others go to Area B instead", "Spot")
+        assert "TIAGo gets no part. It says: “" in told.message  # of its own plan it would give something up
+        await home.say("cancel everything", "Leo")
+        await home.say("cancel everything", "TIAGo")
+        await home.say("let TIAGo go to Area C", "Spot")
         await home.say("cancel everything", "TIAGo")
         await home.say("let Leo do that", "Spot")
-        assert goals(home)["Leo"] == ["Area A"]
+        assert goals(home)["Leo"] == ["Area C"]
 
 
 async def test_who_was_stopped_goes_with_the_yes_to_something_else_and_not_by_a_step_left_out() -> None:

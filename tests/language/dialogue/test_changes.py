@@ -58,6 +58,7 @@ def dropped(answer: ChatAction) -> set[int | None]:
     [
         ("no wait, not the box, the lamp", {0}, ["lamp"]),
         ("sorry, I meant the lamp", {0}, ["lamp"]),
+        ("wait at the lamp", set(), ["lamp"]),
         ("make it the lamp instead", {0}, ["lamp"]),
         ("drop that and go to the lamp", {0}, ["lamp"]),
         ("go to the lamp instead", {0}, ["lamp"]),

@@ -332,7 +332,7 @@ class _Work:
             before = tuple(share.robot for share in new)
         if len({share.robot for share in self._shares}) < len(self._shares):
             return Mission(text=TELL_EACH)
-        return Mission(tuple(self._shares), together(*self._notes), dropped=self._dropped)
+        return Mission(tuple(self._shares), together(*dict.fromkeys(self._notes)), dropped=self._dropped)
 
     def _taken_over(self, part: Part) -> Mission:
         """One robot does what is left of another one's plan."""
@@ -430,7 +430,10 @@ class _Work:
             elif name in able:
                 self._shares.append(Share(name, able[name].calls, needs_yes=able[name].needs_yes))
             else:
-                self._notes.append(sentence("{robot} cannot do that.", robot=name))
+                said = read[name][1].message_response
+                self._notes.append(
+                    sentence("{robot} gets no part. It says: “{answer}”", robot=name, answer=said)
+                )
         return None
 
     async def _allot(

@@ -47,7 +47,8 @@ _AGAINST: Final = re.compile(
     r"go to|going to|visit|visiting|that|this|trip|bit|part|stop|step|of|with))*$"
 )
 _TAKING_BACK: Final = re.compile(
-    r"\b(?:no|nope|not|wait|sorry|oops|actually|instead|rather|scratch|forget (?:it|that|this|about)|"
+    r"\b(?:no|nope|not|sorry|oops|actually|instead|rather|scratch|forget (?:it|that|this|about)|"
+    r"wait(?! (?:at|in|by|near|before|behind|beside|outside|for|until|till|with|here|there)\b)|"
     r"i (?:mean|meant)|"
     r"make (?:it|that)|never ?mind|on second thoughts?|changed? my mind|correction|better|hang on|hold on|"
     r"leave (?:it|that)|drop (?:it|that)|cancel (?:it|that)|change of plan)\b"

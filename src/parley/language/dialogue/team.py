@@ -6,6 +6,7 @@ person's words, to be understood as if it were said to one robot. Words stand in
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -166,7 +167,7 @@ class _Words:
         """A question about robots: who is nearest, what another one is doing."""
         bare = self.begun(text)
         for pattern in _data()["nearest"]:
-            if found := self._match(pattern, bare):
+            if found := self._match(pattern.replace("{robot}", self._names), bare):
                 return TeamWish("nearest", about=found["place"])
         if found := self._match(self.of("chosen"), bare):
             return TeamWish("why", robot=self._robots.get((found["robot"] or "").lower(), ""))
@@ -211,6 +212,16 @@ class _Words:
             return TeamWish("share", (Part("all", found["what"]),), bare=True)
         if found := self._match(r"(?P<order>.+?),? (?:one each|one apiece|one for each of you)", text):
             return TeamWish("share", (Part("all", found["order"]),), one_each=True)
+        some = rf"(?P<some>{self._names}(?:(?:,? and|,) {self._names})+),?(?: {self.of('modal')})?"
+        if found := self._match(rf"{some} (?P<order>.+?),? (?:between|among) (?:them|themselves)", text):
+            return _shared(found["order"], tuple({*self._robots.values()} - {*self._called(found["some"])}))
+        if found := self._match(r"(?:all )?work together,?(?: and| to|:)? (?P<order>.+)", text):
+            return _shared(found["order"])
+        takes = r"takes? (?:one|an?|a different) (?P<what>\w+)(?: each)?,? and (?P<verb>\w+) it"
+        takes = rf"{self.of('each')},? {takes}"
+        if found := self._match(takes, text):
+            order = f"{_in_base_form(found['verb'])} every {found['what']}"
+            return TeamWish("share", (Part("all", order),), one_each=True)
         one = r"(?P<verb>\w+(?: \w+)?) {} (?P<what>\w+(?: \w+){{0,2}}){}"
         each = rf"(?:{self.of('each')}|{self.of('all')}),? {one.format('a (?:different|separate)', '')}"
         found = self._match(one.format("one(?: of the)?", " each"), text) or self._match(each, text)
@@ -245,17 +256,32 @@ class _Words:
             if found["order"].lower().endswith((*_INSIDE, " for", " than", " as", " by")):
                 return None  # "say hello to everybody"
             text = f"{found['all']} {found['order']}"
-        made: list[Part] = []
-        for who, subject, order, after in self._pieces(text):
-            own = self._part(who, subject, order, after=after, known=made)
-            if own is None:
-                return None
-            made.append(own)
-        only = {part.who for part in made}
-        alone = len(made) == 1
+        made = self._made(self._pieces(text))
+        only, alone = {part.who for part in made}, len(made) == 1
         if not made or (alone and only & {"named", "rest"}) or (asks and "named" in only):
             return None
         return TeamWish("parts", tuple(made))
+
+    def _made(self, pieces: Sequence[tuple[Who, str, str, bool]]) -> list[Part]:
+        """The parts of pieces, those that wait behind those that they wait for; none if one is no order."""
+        made: list[Part] = []
+        for who, subject, order, after in pieces:
+            told = re.match(r"\w+s\b", order) and not self._match(rf"{self.of('modal')} .+", order)
+            if len(pieces) == 1 and told and re.match(self.of("indefinite"), f"{subject} {order}"):
+                return []  # "somebody comes to the gate"
+            own = self._part(who, subject, order, after=after, known=made)
+            if own is None:
+                return []
+            made.append(own)
+        if [part.after for part in made] == [True, False]:  # "Kim goes when Ada is there. Ada goes."
+            made.reverse()
+        return [] if len(made) > 1 and made[0].after else made
+
+    def _called(self, text: str) -> tuple[str, ...]:
+        """The robots that are named."""
+        return tuple(
+            self._robots[name.lower()] for name in re.findall(rf"\b{self._names}\b", text, re.IGNORECASE)
+        )
 
     def _handed(self, robot: str, order: str) -> TeamWish | None:
         """What one robot is to do, whoever hears it."""
@@ -265,7 +291,7 @@ class _Words:
     def _taken_over(self, text: str) -> TeamWish | None:
         """That one robot does what is left of another one's work."""
         who = rf"(?:{self.of('handing')} )?(?P<robot>{self._names}),?(?: {self.of('modal')})?"
-        found = self._match(rf"{who} {self.of('takeover')}", text)
+        found = self._match(rf"{who} {self.of('takeover')}", text) or self._match(self.of("givenaway"), text)
         if found is None or found["robot"].lower() == found["of"].lower():
             return None
         robot, of = self._robots[found["robot"].lower()], self._robots[found["of"].lower()]
@@ -320,14 +346,16 @@ class _Words:
             after,
             count=next((number for word, number in _NUMBERS.items() if word in of_whom.split()), 1),
             nearest="nearest" in of_whom or "closest" in of_whom,
-            without=tuple(
-                self._robots[name] for name in re.findall(rf"\b{self._names}\b", " ".join(left_out))
-            ),
+            without=self._called(" ".join(left_out)),
         )
-        order = said.strip(" ,")
+        order = re.sub(r",? first$", "", said.strip(" ,"), flags=re.IGNORECASE)
         way = re.match(r"to (\w+)", order, re.IGNORECASE)
         if way and (way[1].lower(),) not in lexicon().verbs:
             order = f"go {order}"
+        if who == "all":
+            order = re.sub(r",? together$", "", order, flags=re.IGNORECASE)
+        if who != "named":  # "the others at the dock"
+            order = re.sub(r"^(?:at|by|near) (?=\w)", "go to ", order, flags=re.IGNORECASE)
         while found := re.match(rf"{self.of('modal')} ", order, re.IGNORECASE):
             order = order[found.end() :]
         if self._match(self.of("last"), order):
@@ -345,7 +373,11 @@ class _Words:
         if meets := re.match(self.of("meeting"), order, re.IGNORECASE):
             order = f"go to{order[meets.end() :]}"
         first = order.split(" ")[0].lower()
-        acts = (first,) in lexicon().verbs and first not in lexicon().classes["being"]
+        verbs, being = lexicon().verbs, lexicon().classes["being"]
+        if known and who in ("named", "one") and (first,) not in verbs and first not in being:
+            order = f"{_opened(known[-1].order)} {order}"  # "Ada checks the gate, Kim the desk"
+            first = order.split(" ")[0].lower()
+        acts = (first,) in verbs and first not in being
         return replace(part, order=order) if acts and " " in order else None
 
 
@@ -358,8 +390,15 @@ _INSIDE: Final = (
 """Behind these a name is no subject: "go to, hm, Kim"."""
 
 
-def _shared(order: str) -> TeamWish:
-    return TeamWish("share", (Part("all", order),))
+def _shared(order: str, without: tuple[str, ...] = ()) -> TeamWish:
+    return TeamWish("share", (Part("all", order, without=without),))
+
+
+def _opened(order: str) -> str:
+    """The verb of an order, with what leads to its place: "go to"."""
+    first, *rest = order.split(" ")
+    small = lexicon().classes["prepositions"] - lexicon().classes["determiners"]
+    return " ".join([first, *itertools.takewhile(lambda word: word.lower() in small, rest)])
 
 
 def _in_base_form(order: str) -> str:
