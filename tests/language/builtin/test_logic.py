@@ -240,6 +240,16 @@ async def test_a_place_is_looked_through_for_something_else() -> None:
     assert await plan("check gate 2 for leaks") == ["go gate 2", "look gate 2 for leaks"]
     every = [step for number in "123" for step in (f"go gate {number}", f"look gate {number} for parcels")]
     assert await plan("look for parcels at gates 1, 2 and 3") == every
+    none = [
+        step
+        for number in "12"
+        for step in (f"go gate {number}", f"look whether there are no leaks in gate {number}")
+    ]
+    assert await plan("make sure there are no leaks in gates 1, 2") == none
+    seen = [
+        step for name in ("pump", "desk", "gate 1") for step in (f"go {name}", "look whether there is a leak")
+    ]
+    assert await plan("visit the pump, the desk and gate 1 and see whether there is a leak") == seen
     two = ["go pump", "look pump for parcels", "go desk", "look desk for parcels"]
     assert await plan("look for parcels at the pump and at the desk") == two
     until_seen = ["go gate 1", "look parcel", "unless 2: go gate 2", "unless 2: look parcel"]
@@ -249,6 +259,23 @@ async def test_a_place_is_looked_through_for_something_else() -> None:
     assert await plan("inspect gates 1 and 2 for strange parcels") == [
         step for name in ("gate 1", "gate 2") for step in (f"go {name}", f"look {name} for strange parcels")
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "told",
+    [
+        "Remember: the places of interest are gate 1, the pump and gate 3",
+        "Just so you know, our places of interest are gate 1, the pump and 3.",
+        "You should know that there are three places of interest, gate 1, the pump and gate 3.",
+        "the three places of interest are called gate 1, the pump and gate 3",
+    ],
+)
+async def test_a_list_may_be_told_in_other_words(told: str) -> None:
+    (command,) = (await ENGINE.interpret(situation(told))).system_cmd
+    memory = MemoryEntry(name="told", type="text", data=str(command.arguments["data"]))
+    later = replace(situation("go to all places of interest"), memory=(memory,))
+    goals = [str(c.input_parameters["target"].value) for c in (await ENGINE.interpret(later)).queue[::2]]
+    assert goals == ["gate 1", "pump", "gate 3"]
 
 
 @pytest.mark.parametrize("listed", ["gate 1, the pump, and gate 3", "gate 1, pump and 3"])

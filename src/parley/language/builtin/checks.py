@@ -57,7 +57,7 @@ def check(builder: Ways, words: Sequence[str], text: str) -> Look | Ask:
     slot = looked and (looked.roles.get("K") or looked.roles.get("T"))
     if looked is None or not slot:
         return Ask(f"I have no action to find out whether {text}.")
-    where = _where(builder, spoken, text)
+    where = _where(builder, [word for word in words if word == "," or word in spoken], text)
     if isinstance(where, Ask):
         return where
     found: list[Deed] = []
@@ -76,12 +76,13 @@ def check(builder: Ways, words: Sequence[str], text: str) -> Look | Ask:
     return Look(found, holds)
 
 
-def _where(builder: Ways, words: Sequence[str], text: str) -> list[tuple[Value | None, str]] | Ask:
-    """Where to look and what at: once, or for each of a set."""
+def _where(builder: Ways, said: Sequence[str], text: str) -> list[tuple[Value | None, str]] | Ask:
+    """Where to look and what at: once, or for each of a set, which may be listed with commas."""
+    words = [word for word in said if word != ","]
     each = _each(builder, words)
     if each:
         return each
-    inside = _in_each(builder, words, text)
+    inside = _in_each(builder, said, text)
     if inside:
         return inside
     place = seen_at(builder, words)

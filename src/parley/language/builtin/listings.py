@@ -13,11 +13,19 @@ from parley.world.object_map import MapObject
 
 __all__ = ["listing", "told_set"]
 
-_LISTING: Final = re.compile(
-    r"(?:(?:please|and|ok|okay|so|remember(?: that)?|note(?: that)?)[, ]+)*"
-    r"(?P<fact>(?:there(?: are|'re|’re)|these are|(?:we|i)(?: have|'ve|’ve)(?: got)?) "
-    r"(?P<head>[^:?]{3,80}): ?(?P<items>[^?:]+))",
-    re.IGNORECASE,
+_LEAD: Final = (
+    r"(?:(?:please|and|ok|okay|so|(?:just )?so you know|you should know|fyi|for your information|"
+    r"keep in mind|remember|note)(?: that)?[:, ]+)*"
+)
+_COUNT: Final = r"(?:two|three|four|five|six|seven|eight|nine|ten|\d+)"
+_THERE_ARE: Final = r"(?:there(?: are|'re|’re)|these are|(?:we|i)(?: have|'ve|’ve)(?: got)?)"
+_LISTINGS: Final = tuple(
+    re.compile(rf"{_LEAD}(?P<fact>{shape} ?(?P<items>[^?:]+))", re.IGNORECASE)
+    for shape in (
+        rf"{_THERE_ARE} (?P<head>[^:?]{{3,80}}):",
+        rf"{_THERE_ARE} (?P<head>{_COUNT} \w+(?: \w+)?(?: of \w+)?),(?: namely)?",
+        r"(?:the|our|my) (?P<head>\w+(?: \w+)?(?: of \w+)?) are(?: called)?:?",
+    )
 )
 _WORD: Final = re.compile(r"[\w-]+")
 
@@ -30,8 +38,8 @@ def listing(message: str, objects: Sequence[MapObject], lexicon: Lexicon) -> Tol
         objects: The map.
         lexicon: Closed classes.
     """
-    found = _LISTING.fullmatch(" ".join(message.split()).rstrip(".! "))
-    if found is None or len(_items(found["items"], objects)) < 2:
+    found = _found(" ".join(message.split()))
+    if found is None or len(_items(found["items"], objects, found["head"])) < 2:
         return None
     counting = lexicon.classes["determiners"] | _COUNTS
     words = [word for word in _WORD.findall(found["head"].lower()) if word not in counting]
@@ -47,10 +55,15 @@ def told_set(
     small = lexicon.classes["determiners"] | lexicon.classes["prepositions"] | {"of", "those", "them"}
     wanted = {stem(word) for word in words if word not in small}
     for memory in reversed(memories):
-        found = _LISTING.fullmatch(memory.data.rstrip(".! ")) if memory.type == "text" else None
+        found = _found(memory.data) if memory.type == "text" else None
         if found is not None and wanted and wanted <= {stem(w) for w in _WORD.findall(found["head"].lower())}:
-            return _items(found["items"], objects)
+            return _items(found["items"], objects, found["head"])
     return ()
+
+
+def _found(text: str) -> re.Match[str] | None:
+    """The list that a text is."""
+    return next((match for one in _LISTINGS if (match := one.fullmatch(text.rstrip(".! ")))), None)
 
 
 _COUNTS: Final = frozenset({
@@ -59,12 +72,15 @@ _COUNTS: Final = frozenset({
 })  # fmt: skip
 
 
-def _items(text: str, objects: Sequence[MapObject]) -> tuple[MapObject, ...]:
-    """The things that a list names; none if anything else stands in it."""
+def _items(text: str, objects: Sequence[MapObject], head: str) -> tuple[MapObject, ...]:
+    """The things that a list names, with words of its `head` or without; none if anything else is in it."""
     parts = [part for part in re.split(r",\s*(?:and\s+)?|;\s*|\s+and\s+", text.strip(" .!")) if part]
     said = [re.sub(r"^(?:the|an?|my|our) ", "", part.lower()).split() for part in parts]
-    kind = said[0][:-1] if said else []
-    called = [_called(words, objects) or _called([*kind, *words], objects) for words in said]
+    kinds = [said[0][:-1] if said else [], *([word] for word in _WORD.findall(head.lower()))]
+    called = [
+        next((things for kind in ([], *kinds) if (things := _called([*kind, *words], objects))), [])
+        for words in said
+    ]
     return tuple(one[0] for one in called) if all(len(one) == 1 for one in called) else ()
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -213,6 +214,14 @@ class Planner:
             if wish.negated:
                 self.builder.forbidden(wish)
                 continue
+            row = [wish, *itertools.takewhile(_is_listed, rest)] if wish.frame == "GO" else [wish]
+            there = self._also(rest[len(row) - 1 :]) if len(row) > 1 else []
+            if there and all(
+                one.frame == "LOOK" for one in there
+            ):  # "to the desk and the gate, and see if ..."
+                del rest[: len(row) - 1 + len(there)]
+                rest = [*(one for place in row for one in (place, *there)), *rest]
+                wish = rest.pop(0)
             self.builder.behind = next((one for one in rest if not one.negated), None)
             made = self.builder.deeds(wish)
             if isinstance(made, Ask):
@@ -350,6 +359,16 @@ def _from(place: str, made: list[Deed]) -> list[Deed]:
     """Deeds without the way to where the robot is already."""
     there = place and made and made[0].frame == "GO" and place in made[0].arguments.values()
     return made[2 if made[0].hidden else 1 :] if there else made
+
+
+def _is_listed(wish: Wish) -> bool:
+    """Whether a wish is one more place for the verb before it."""
+    return (
+        wish.frame == "GO"
+        and wish.verb != ""
+        and not wish.negated
+        and any(wish.start == one.start for one in wish.all("G"))
+    )
 
 
 def _joined(deeds: list[Deed], more: list[Deed]) -> list[Deed]:
