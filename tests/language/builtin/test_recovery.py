@@ -56,6 +56,23 @@ async def test_an_order_to_go_where_the_plan_waits_to_go_is_the_answer(
     assert (await ENGINE.resolve(failure(reply))).success is None  # a step that is more than a search
 
 
+@pytest.mark.parametrize(
+    "reply",
+    [
+        "Done, the box is gone. Go to the ramp.",
+        "it's clear now, go to the ramp",
+        "It is out of the way. Please drive home to the ramp.",
+    ],
+)
+async def test_what_was_in_the_way_is_told_to_be_gone_and_the_order_behind_it_is_done(reply: str) -> None:
+    known = replace(failure(reply, FailureCode.BLOCKED), catalogue=CATALOGUE, robot="Ada")
+    answer = await ENGINE.resolve(known)
+    assert answer.success
+    assert answer.queue[:1] == (STEP,)
+    assert [target(step) for step in answer.afterwards[:1]] == ["ramp"]
+    assert (await ENGINE.resolve(replace(known, reply="the ramp is free"))).success is not True
+
+
 @pytest.mark.parametrize("reply", ["use the ramp instead", "take the ramp", "no, the ramp"])
 async def test_another_place_may_be_named_where_the_way_is_closed(reply: str) -> None:
     drives = ActionCall.model_validate(

@@ -261,7 +261,7 @@ def _led(wishes: list[Wish]) -> list[Wish]:
 _HOW = frozenset({"how", "the", "way"})
 _NAMED = frozenset("TGSLR")
 """Roles that name a thing, a place or a person."""
-_ALONG = frozenset({"down", "up", "round", "over", "back"})
+_ALONG = frozenset({"down", "up", "round", "over", "back", "home"})
 _FOCUS = frozenset({"only", "just", "merely", "solely"})
 
 

@@ -146,7 +146,11 @@ class Repairer:
         chose = self._chosen(situation, reply, names) or self._pursued(situation, reply)
         if chose is not None:
             return chose
-        found = settled(reply, self._other_things(situation))
+        found = settled(
+            reply,
+            self._other_things(situation),
+            in_the_way=situation.code in (*_ON_THE_WAY, FailureCode.ATTENTION),
+        )
         if found is not None:
             return self._settled(situation, found)
         words = words_of(reply)

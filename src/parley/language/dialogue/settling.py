@@ -51,6 +51,11 @@ _FREED: Final = re.compile(
     r"(?:moved|removed|cleared|taken away|picked up|put away|fixed|closed|opened)(?: now| again)?"
 )
 """What is told to have been done, of something that is named: worth remembering as well."""
+_CLEAR: Final = re.compile(
+    r"(?:\w+(?: \w+){0,4}?)(?: is| are|'s|'re)(?: all| now| just)* "
+    r"(?:gone|away|clear|free|empty|open|out of the way)(?: now| again)*"
+)
+"""What is told to be in nobody's way any more."""
 _MOST_WORDS: Final = 9
 _LONGEST_S: Final = 3600.0
 
@@ -67,17 +72,25 @@ class Settled:
     """What is so from now on, in the person's words."""
 
 
-def settled(reply: str, things: Collection[str]) -> Settled | None:
+def settled(reply: str, things: Collection[str], *, in_the_way: bool = False) -> Settled | None:
     """What an answer settles; None if it is no such answer.
 
     Args:
         reply: What was said.
         things: The stems of words that name other things than the step is about: with one of them in it an
             answer is more than this.
+        in_the_way: Whether something was in the way, or where nothing should be.
     """
     wait_s = 0.0
     for piece, rest in parts_of(reply):
         way, seconds = _way(piece, things), _seconds(piece)
+        if in_the_way and _is_clear(piece, things):
+            way = "done"
+        while way == "done" and rest and in_the_way:  # "done, the box is gone, go on to the desk"
+            more, behind = next(parts_of(rest))
+            if not (_is_clear(more, things) or is_done(plain(tokenize(more)))):
+                break
+            rest = behind
         if seconds and way in (None, "stop") and _WAITING.search(piece.lower()):
             wait_s += seconds
             continue
@@ -99,6 +112,12 @@ def parts_of(reply: str) -> Iterator[tuple[str, str]]:
     for start, end in zip(starts, [*(cut.start() for cut in cuts), len(text)], strict=True):
         behind = next((later for later in starts if later > start), len(text))
         yield text[start:end], text[behind:]
+
+
+def _is_clear(piece: str, things: Collection[str]) -> bool:
+    words = words_of(piece)
+    about = {stem(word) for word in words} & {*things}
+    return _CLEAR.fullmatch(plain(tokenize(piece))) is not None and not (about or _NOT & {*words})
 
 
 def _way(piece: str, things: Collection[str]) -> Way | None:
