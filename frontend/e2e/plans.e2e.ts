@@ -99,7 +99,13 @@ describe.skipIf(!hasBrowser)('an operator with a plan', () => {
     await expect.poll(() => queued.count(), { timeout: PATIENCE_MS }).toBe(count);
 
     await page.getByRole('button', { name: 'Change', exact: true }).dblclick(); // once more than needed: nothing else is pressed
-    await page.getByRole('row').last().getByRole('button', { name: /^Remove/ }).click();
+    await page.getByRole('button', { name: /Add a step/ }).click();
+    await page.getByRole('option', { name: 'Look with the camera: …' }).click();
+    await page.getByRole('button', { name: 'Save' }).click();
+    const notes = page.getByRole('region', { name: 'Notes' });
+    await notes.getByText(/^I cannot do step 5, “Look with the camera: …”: something that it needs is not given/).waitFor(); // as numbered there
+    expect(await notes.getByText('The plan was changed.').count()).toBe(0);
+    for (let dropped = 0; dropped < 2; dropped += 1) await page.getByRole('row').last().getByRole('button', { name: /^Remove/ }).click();
     await page.getByRole('button', { name: 'Save' }).click();
     await page.getByText('The plan was changed.').first().waitFor();
     await expect.poll(() => queued.count(), { timeout: PATIENCE_MS }).toBe(count - 1);
@@ -108,8 +114,13 @@ describe.skipIf(!hasBrowser)('an operator with a plan', () => {
     await expect.poll(() => queued.count(), { timeout: PATIENCE_MS }).toBe(0);
     await page.getByText(/were cancelled/).waitFor();
     await page.getByRole('button', { name: 'Begin again' }).click();
-    await steps(page).locator('li[data-state="running"]').waitFor();
+    const running = steps(page).locator('li[data-state="running"]');
+    await running.getByText('Go to “bed”').waitFor();
     await expect.poll(() => queued.count(), { timeout: PATIENCE_MS }).toBe(count - 1);
+    await page.getByRole('button', { name: 'Skip', exact: true }).click();
+    await notes.getByText('“Go to ‘bed’” is left out.').waitFor();
+    await notes.getByRole('button', { name: 'Undo' }).click();
+    await expect.poll(() => steps(page).locator('li[data-state="queued"]').getByText('Go to “bed”').count(), { timeout: PATIENCE_MS }).toBe(1);
   });
 
   it('presses twice in a hurry, or at once with somebody else, and does it once', async () => {
@@ -159,9 +170,13 @@ describe.skipIf(!hasBrowser)('an operator with a plan', () => {
     await page.getByRole('button', { name: 'Stop', exact: true }).tap();
     await page.getByText('Stands still (measured)').waitFor();
     const stood = await robotNamed(stage);
+    await page.getByRole('button', { name: 'Continue' }).tap();
+    const note = page.getByRole('region', { name: 'Notes' }).getByText('David does not move until its emergency stop is released.');
+    await note.waitFor();
     await page.getByRole('button', { name: 'Release…' }).tap();
     await page.getByRole('button', { name: 'Yes, it is safe' }).tap();
     await page.getByText('David is stopped').waitFor({ state: 'detached' });
+    await note.waitFor({ state: 'detached' }); // it is not true any more
     expect(distance(await robotNamed(stage), stood)).toBeLessThan(0.25);
     await page.getByRole('button', { name: 'Continue' }).tap();
     await untilItMoved(stage, stood);

@@ -300,7 +300,7 @@ async def test_impossible_edit_is_refused_with_place_and_remedy(
     async with crew("A") as party:
         await begun(party, look("door"))
         decide(party, decision="edit", steps=[look("floor").model_dump(), step.model_dump()])
-        await party.hears("I cannot do step 2, “")
+        await party.hears("I cannot do step 3, “")  # as people count, with the one that has begun
         await party.hears(f"”: {why}. I left everything as it is.")
         problem = party.observer.refusals[-1].problems[0]
         assert problem.path == path
@@ -335,7 +335,7 @@ async def test_edit_that_drops_what_another_step_depends_on_is_refused() -> None
         await party.until(lambda: len(party.steps()) == 3)
         kept = party.observer.plans["A"].steps[2].action
         decide(party, decision="edit", steps=[kept.model_dump()])
-        await party.hears("I cannot do step 1, ")
+        await party.hears("I cannot do step 2, ")
         assert party.observer.refusals[-1].problems[0].path == "steps[0].flow"
 
 

@@ -7,7 +7,7 @@ from collections.abc import AsyncIterator
 import pytest
 
 from parley.messages import topics
-from parley.messages.chat import ChatAction, CommandName, Press, PressTaken, SystemCommand
+from parley.messages.chat import ActionCall, ChatAction, CommandName, Press, PressTaken, SystemCommand
 from parley.messages.wire import decode
 from tests.agents.crew import KIM, Crew, crew, decide, drive, look, proposals
 from tests.transport.backends import until
@@ -103,3 +103,25 @@ async def test_what_an_earlier_process_showed_may_be_refused_and_halted_but_not_
     await party.doing("drive 9")
     buttons.press("stop", 5, "earlier")
     await party.state("paused")
+
+
+async def test_a_press_for_other_steps_hears_what_came_of_it(buttons: Buttons) -> None:
+    party = buttons.party
+    party.body.gate("box")
+    party.order(look("box"), look("door"))
+    await party.doing("look box")
+
+    async def outcome(number: int, *steps: ActionCall, revision: int | None = None) -> tuple[str, str]:
+        calls = [step.model_dump() for step in steps]
+        press = buttons.number(number)
+        decide(party, decision="edit", steps=calls, press=press.model_dump(), revision=revision)
+        await until(lambda: any(taken.id == press.id and taken.outcome for taken in buttons.taken))
+        return next((one.outcome, one.why) for one in buttons.taken if one.id == press.id and one.outcome)
+
+    impossible = await outcome(1, look("lid"), ActionCall(name="Fly"))
+    assert impossible[0] == "refused"
+    assert impossible[1].startswith("I cannot do step 3, “Fly”: I cannot do such a thing.")
+    shown = party.observer.plans["A"].revision
+    assert await outcome(3, look("lid")) == ("done", "")
+    assert (await outcome(2, look("floor")))[0] == "refused"
+    assert (await outcome(4, look("floor"), revision=shown))[0] == "past"

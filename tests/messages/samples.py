@@ -180,7 +180,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "unattended": "hold",
     },
     chat.Press: PRESS,
-    chat.PressTaken: {"run": "r", "id": "p.7"},
+    chat.PressTaken: {"run": "r", "id": "p.7", "outcome": "refused", "why": "Step 2 is impossible."},
     chat.ReplyDraft: {"reply_to": "1", "targets": ["A"], "message": "I will"},
     chat.ChatFeedback: {
         "message": "Which one?",

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import asyncio
+from typing import Literal
+
 import pytest
 
 from parley.messages import topics
@@ -155,3 +158,33 @@ async def test_a_planner_that_was_started_anew_is_told_when_people_want_to_be_as
         rig.robots.tell(topics.PRESS_TAKEN, PressTaken(run="r2"))
         await until(lambda: len(rig.robots.decisions) > 1)
         assert {(d.decision, d.policy) for d in rig.robots.decisions} == {("policy", "ask_first")}
+
+
+@pytest.mark.parametrize(
+    ("outcome", "status", "told"),
+    [
+        ("done", 200, ""),
+        ("refused", 422, "Step 3 leads into the bedroom."),
+        ("past", 409, "The plan has changed."),
+        ("", 504, "Nobody has said yet"),
+    ],
+)
+async def test_whoever_changes_steps_is_told_what_came_of_it(
+    monkeypatch: pytest.MonkeyPatch, outcome: Literal["", "done", "refused", "past"], status: int, told: str
+) -> None:
+    monkeypatch.setattr(outbox, "PRESSED_WITHIN_S", 0.3)
+    async with served("Ada") as rig:
+        await planned(rig)
+        step = PlanStep(action=ActionCall(name="Look"), id="s1")
+        rig.robots.tell(topics.PLAN, PlanUpdate(target="Ada", graph_name="g", state="paused", steps=(step,)))
+        await rig.heard()
+        put = asyncio.create_task(rig.http.put("/api/plans/Ada/steps", json={"steps": [], "revision": 0}))
+        await until(lambda: rig.robots.decisions)
+        press = rig.robots.decisions[0].press
+        assert press is not None
+        rig.robots.tell(topics.PRESS_TAKEN, PressTaken(run="r1", id=press.id))
+        if outcome:
+            rig.robots.tell(topics.PRESS_TAKEN, PressTaken(run="r1", id=press.id, outcome=outcome, why=told))
+        answer = await put
+        assert answer.status_code == status
+        assert told in answer.json().get("detail", "")

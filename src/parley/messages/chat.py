@@ -26,6 +26,7 @@ __all__ = [
     "CommandName",
     "Flow",
     "FlowIf",
+    "Outcome",
     "Press",
     "PressTaken",
     "ReplyDraft",
@@ -139,6 +140,10 @@ class Press(Payload):
         return f"{self.page}.{self.number}"
 
 
+Outcome = Literal["done", "refused", "past"]
+"""`past`: what it was for is another by now."""
+
+
 class PressTaken(Payload):
     """`/parley/press_taken`: the press of a button got to the planner; what did not is sent again."""
 
@@ -146,6 +151,10 @@ class PressTaken(Payload):
     """Of the planner, from its start to its end."""
     id: str = ""
     """Of the press; empty: the planner has come."""
+    outcome: Literal["", Outcome] = ""
+    """What came of it, told once more where it takes a while to say: of changed steps."""
+    why: str = ""
+    """Why it was refused, in plain words."""
 
 
 class FlowIf(Payload):

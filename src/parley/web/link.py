@@ -129,6 +129,8 @@ class Link:
         """Whether whoever reads what people say was ever heard to say so; a node of another make does not."""
         self._unread: dict[str, _Unread] = {}
         """Words and presses that were published, by their id."""
+        self._outcomes: dict[str, asyncio.Future[PressTaken]] = {}
+        """Of presses of which somebody waits to hear what came of them, by id."""
         self._planner, (self._page, self._pressed) = "", pressed
         self._planned = asyncio.Event()
         self._losses = Losses(self._tell_lost)
@@ -279,6 +281,20 @@ class Link:
         finally:
             del self._unread[numbered.press.id]
 
+    async def outcome(self, press: str, within_s: float) -> PressTaken:
+        """What came of a press.
+
+        Raises:
+            TimeoutError: Nobody said so in time.
+        """
+        heard: asyncio.Future[PressTaken] = asyncio.get_running_loop().create_future()
+        self._outcomes[press] = heard
+        try:
+            async with asyncio.timeout(within_s):
+                return await heard
+        finally:
+            del self._outcomes[press]
+
     async def ask(self, service: Service[ChatRequest, ChatResponse], request: BaseModel, kind: type[P]) -> P:
         """Call a service that speaks JSON.
 
@@ -380,6 +396,9 @@ class Link:
     def _on_taken(self, taken: PressTaken) -> None:
         if (waited := self._unread.get(taken.id)) is not None:
             waited.read.set()
+        heard = self._outcomes.get(taken.id)
+        if taken.outcome and heard is not None and not heard.done():
+            heard.set_result(taken)
         if taken.run != self._planner:
             self._planner = taken.run
             self._planned.set()

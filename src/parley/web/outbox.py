@@ -16,6 +16,7 @@ from parley.messages.status import PlanDecision
 from parley.sentences import sentence
 from parley.web.link import Link, Pressed, halts, robots_of
 from parley.web.models import ChatEntry
+from parley.web.problems import WebProblem
 from parley.web.state import WebState
 from parley.web.stopping import Stopper
 from parley.web.store import WebStore
@@ -39,6 +40,7 @@ _NOT_TAKEN: Final = sentence(
     "A button was pressed, but planning does not answer, so nothing may have been done for it. Look how "
     "things stand, and press again if it still holds."
 )
+_NO_OUTCOME: Final = sentence("Nobody has said yet what came of that. Look how the plan is before you go on.")
 _CUT_OFF: Final = sentence(
     "A button was pressed just before the page was interrupted, so nothing may have been done for it. Look "
     "how things stand, and press again if it still holds."
@@ -118,7 +120,23 @@ class Outbox:
         except StoreError as error:
             log.error("not forgotten", problem=str(error))
 
-    async def press(self, message: Pressed) -> None:
+    async def press_through(self, message: Pressed) -> None:
+        """Do as `press`, and wait for what comes of it.
+
+        Raises:
+            WebProblem: It was refused, or nobody says in time what came of it.
+        """
+        pressed = await self.press(message)
+        if pressed.press is None:
+            return  # its planner does not say
+        try:
+            taken = await self._link.outcome(pressed.press.id, PRESSED_WITHIN_S)
+        except TimeoutError:
+            raise WebProblem(504, _NO_OUTCOME) from None
+        if taken.outcome != "done":
+            raise WebProblem(409 if taken.outcome == "past" else 422, taken.why, path="steps")
+
+    async def press(self, message: Pressed) -> Pressed:
         """Keep what a button does and send it until whoever plans has taken it, or tell that it may not have.
 
         Raises:
@@ -136,6 +154,7 @@ class Outbox:
                 log.error("press not stored", id=message.press.id, problem=str(error))
         if not first:
             self._send_press(message, PRESSED_WITHIN_S)
+        return message
 
     def _send_press(self, message: Pressed, within_s: float) -> None:
         self._link.press(message)

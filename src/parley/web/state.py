@@ -179,7 +179,7 @@ class WebState:
             remedy = f" Please {stop.remedy}." if stop.remedy else ""
             return f"{stop.message.rstrip('.')}.{remedy}"
         if rejection.what.endswith("plan_decision"):
-            return f"{robot} could not take that change, so its plan is as it was."
+            return ""  # whoever pressed is told why, and so is the chat
         plan = self.plans.views.get((rejection.source, rejection.graph_name))
         is_told = rejection.source not in self.robots.views or (plan is not None and plan.kind == "plan")
         if is_told and "invalid_message" not in codes:

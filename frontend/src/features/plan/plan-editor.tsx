@@ -17,6 +17,8 @@ import css from './plan-editor.module.css';
 interface Props {
   robot: string;
   steps: readonly DraftStep[];
+  /** How many stand before them. */
+  before?: number;
   /** By id those that have begun since: they can be changed no more. */
   begun?: ReadonlySet<string>;
   saveLabel: string;
@@ -34,7 +36,7 @@ const NONE: ReadonlySet<string> = new Set();
 const NO_ACTIONS: readonly AbilityView[] = [];
 
 /** Steps to be put in order, changed, removed and added. */
-export function PlanEditor({ robot, steps: initial, begun = NONE, saveLabel, onSave, onCancel }: Props) {
+export function PlanEditor({ robot, steps: initial, before = 0, begun = NONE, saveLabel, onSave, onCancel }: Props) {
   const { t } = useTranslation(['plan', 'common']);
   const [drafts, setSteps] = useState(initial);
   const steps = useMemo(() => without(drafts, begun), [drafts, begun]);
@@ -87,6 +89,7 @@ export function PlanEditor({ robot, steps: initial, begun = NONE, saveLabel, onS
       <GridList
         aria-label={t('editTitle')}
         className={css.list ?? ''}
+        style={{ counterReset: `step ${before}` }}
         selectionMode="none"
         keyboardNavigationBehavior="tab"
         dragAndDropHooks={dragAndDropHooks}

@@ -116,6 +116,20 @@ describe('the plan', () => {
     expect(sent[1]).toEqual({ method: 'PUT', path: '/api/plans/Ada/steps', body: { steps: again.map(call), revision: 9 } });
   });
 
+  it('puts back into a plan that moves on just then what it is by then', async () => {
+    const user = show();
+    await user.click(screen.getByRole('button', { name: 'Skip' }));
+    status = 409;
+    const moveOn = (seq: number) =>
+      act(() => useLive.getState().takeChanges([{ kind: 'plan', seq, plan: plan({ robot: 'Ada', revision: 7 + seq, steps: steps.slice(3) }) }]));
+    await act(async () => useToasts.getState().toasts[0]?.action?.run());
+    status = 200;
+    moveOn(1);
+    await vi.waitFor(() => expect(sent).toHaveLength(3));
+    expect(sent[2]?.body).toEqual({ steps: ['Two', 'Four'].map(call), revision: 8 });
+    expect(useToasts.getState().toasts.filter(({ tone }) => tone === 'error')).toEqual([]);
+  });
+
   it('keeps each button in its place while a plan is being changed', async () => {
     const user = show();
     const names = () => screen.getAllByRole('button').map((one) => one.textContent).filter((text) => /Pause|Skip|Change|Cancel all/.test(text));

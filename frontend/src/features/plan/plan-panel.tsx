@@ -1,6 +1,7 @@
 import { useContext, useEffect, useMemo, useRef, useState, type Ref } from 'react';
 import { useTranslation } from 'react-i18next';
 
+import { putSteps } from '@/live/api';
 import { useWorld } from '@/live/store';
 import type { PlanView, ProposalView, StepState } from '@/live/types';
 import { planKey } from '@/live/world';
@@ -91,10 +92,11 @@ function PlanOf({ plan }: { plan: PlanView }) {
             key={editing.revision}
             robot={plan.robot}
             steps={toDrafts(pendingSteps(editing.steps))}
+            before={lines.filter(({ step }) => step.state !== 'queued').length}
             begun={begun}
             saveLabel={t('common:save')}
             onSave={async (calls) => {
-              const outcome = await save(plan.robot, calls, isSame ? plan.revision : editing.revision);
+              const outcome = await save(plan.robot, () => putSteps(plan.robot, calls, isSame ? plan.revision : editing.revision));
               if (outcome !== 'refused') close();
             }}
             onCancel={close}

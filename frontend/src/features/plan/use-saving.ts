@@ -12,21 +12,27 @@ import type { Line } from '@/live/lines';
 
 type Outcome = 'saved' | 'refused' | 'conflict';
 
+/** How often steps are put back into a plan that moves on just then, and how long it may take to hear that it did. */
+const TRIES = 3;
+const MOVED_ON_MS = 2000;
+
 const ownPlan = (robot: string) =>
   Object.values(useLive.getState().world.plans).find((one) => one.robot === robot && one.kind === 'plan');
+
+const isConflict = (error: unknown) => error instanceof ApiError && error.status === 409;
 
 /** Sends changed steps and says what came of it; `conflict`: the plan has moved on meanwhile. */
 export function useSaving() {
   const { t } = useTranslation('plan');
   const show = useToasts((state) => state.show);
-  return async (robot: string, calls: readonly ActionCall[], revision: number, said = t('saved')): Promise<Outcome> => {
+  return async (robot: string, save: () => Promise<unknown>, said = t('saved')): Promise<Outcome> => {
     useToasts.getState().anew();
     try {
-      await putSteps(robot, calls, revision);
+      await save();
       if (said) show({ tone: 'info', message: said });
       return 'saved';
     } catch (error) {
-      const conflict = error instanceof ApiError && error.status === 409;
+      const conflict = isConflict(error);
       const name = ownPlan(robot)?.graph_name;
       const stands = () => ownPlan(robot)?.graph_name === name && ownPlan(robot)?.state !== 'ended';
       show({ tone: 'error', message: conflict ? t('conflict') : explain(error), stands: conflict ? stands : 'deed' });
@@ -41,13 +47,34 @@ export function usePutBack(plan: PlanView) {
   const show = useToasts((state) => state.show);
   const save = useSaving();
   return (gone: readonly StepView[], message: string, label = t('common:undo')) => {
-    const undo = () => {
-      const now = ownPlan(plan.robot);
-      const still = now ? pendingSteps(now.steps) : [];
-      void save(plan.robot, putBack(gone, plan.steps, still).map(callOf), now?.revision ?? plan.revision, '');
+    const undo = async (tries = TRIES): Promise<void> => {
+      const now = ownPlan(plan.robot) ?? plan;
+      const still = now === plan ? [] : pendingSteps(now.steps);
+      try {
+        await putSteps(plan.robot, putBack(gone, plan.steps, still).map(callOf), now.revision);
+      } catch (error) {
+        if (tries <= 1 || !isConflict(error)) throw error;
+        await movedOn(plan.robot, now.revision);
+        await undo(tries - 1);
+      }
     };
-    show({ tone: 'info', message, action: { label, run: undo } });
+    show({ tone: 'info', message, action: { label, run: () => void save(plan.robot, undo, '') } });
   };
+}
+
+/** Heard, or not in time, that a plan is another by now. */
+async function movedOn(robot: string, revision: number): Promise<void> {
+  const isPast = () => ownPlan(robot)?.revision !== revision;
+  if (isPast()) return;
+  await new Promise<void>((settle) => {
+    const timer = setTimeout(settle, MOVED_ON_MS);
+    const leave = useLive.subscribe(() => {
+      if (!isPast()) return;
+      clearTimeout(timer);
+      leave();
+      settle();
+    });
+  });
 }
 
 /** Takes one step that has not begun out of a plan, with the search for its place; it can be put back for a while. */
@@ -59,7 +86,7 @@ export function useRemoving(plan: PlanView) {
     const gone = [...finding, step];
     const out = gone.map((one) => one.id);
     const rest = pendingSteps(plan.steps).filter((one) => !out.includes(one.id));
-    const outcome = await save(plan.robot, rest.map(callOf), plan.revision, '');
+    const outcome = await save(plan.robot, () => putSteps(plan.robot, rest.map(callOf), plan.revision), '');
     if (outcome === 'saved') offer(gone, t('removed', { step: quoted(sentence(step.label)) }));
   };
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Final, Literal
 
 from parley.agents.base import Node
@@ -18,12 +19,14 @@ from parley.agents.planner.proposing import Proposals
 from parley.agents.planner.robot_plans import RobotPlans
 from parley.agents.questions import SeenIds
 from parley.errors import Problem
+from parley.gate.cards import for_next
 from parley.gate.judge import Judgement
 from parley.gate.table import Effect, verdict
 from parley.messages import topics
 from parley.messages.audit import AuditEvent
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 from parley.messages.status import PlanDecision, PlanProposal
+from parley.sentences import together
 
 __all__ = ["Decisions"]
 
@@ -91,7 +94,7 @@ class Decisions:
                 decision.steps if edits else shown,
                 decision.by,
                 lambda found: (self._take_edit if edits else self._take_yes)(target, decision, found),
-                lambda: self._plans.say(target, orders.NOTHING_DONE, "error"),
+                lambda: self._undone(decision, orders.NOTHING_DONE),
             )
 
     def _take_yes(self, target: str, decision: PlanDecision, judgement: Judgement | None) -> None:
@@ -116,9 +119,11 @@ class Decisions:
     def _take_edit(self, target: str, decision: PlanDecision, judgement: Judgement | None) -> None:
         """Take up an edit unless the rules forbid what it says."""
         if judgement is not None and judgement.forbidden:
-            texts = self._plans.forbid(target, judgement)
+            before = 0 if decision.id else self._shown_before(self._plans.plan(target))
+            texts = self._plans.forbid(target, judgement, before)
             problems = [Problem("steps", text, "leave that out", "forbidden") for text in texts]
             self._plans.refuse(topics.PLAN_DECISION.name, target, problems)
+            self._presses.over(decision.press, together(*texts))
         elif decision.id:
             self._decide(target, decision)
         else:
@@ -138,15 +143,22 @@ class Decisions:
         shown = decision.digest or (proposal.digest if decision.decision == "edit" else "")
         if shown != proposal.digest or self._proposals.digest(proposal) != proposal.digest:
             self._proposals.show_again(plan, proposal)
+            self._presses.over(decision.press, orders.NOT_AS_SHOWN, past=True)
             return
         edited = decision.decision == "edit"
         calls: list[ActionCall] | None = list(proposal.steps)
+
+        def refuse(put: Sequence[ActionCall], problems: Sequence[Problem]) -> None:
+            self._refuse_edit(plan, decision, put, problems)
+
         if edited:
             calls, problems = rebased(decision.steps, proposal.steps)
             if problems:
-                self._plans.refuse_edit(plan, decision.steps, problems)
+                refuse(decision.steps, problems)
                 return
-        calls = self._plans.accept(plan, calls or (), correcting=repairs is not None, decided=edited)
+        calls = self._plans.accept(
+            plan, calls or (), correcting=repairs is not None, refuse=refuse if edited else None
+        )
         if calls is None:
             return  # it goes on waiting, for a better edit
         self._begin(plan, decision, proposal, calls)
@@ -159,7 +171,32 @@ class Decisions:
             self._plans.send(plan, self._commands.effects_of(plan, stop, decision.by))
             self._plans.say(target, orders.BEGUN_ALREADY, "response")
         else:
-            self._plans.say(target, "That plan is no longer waiting for an answer.", "error")
+            self._undone(decision, orders.WAITS_NO_MORE, past=True)
+
+    def _undone(self, decision: PlanDecision, why: str, *, past: bool = False) -> None:
+        """Tell that nothing came of a decision."""
+        target = self._plans.presence.resolve(decision.target) or decision.target
+        self._plans.say(target, why, "error")
+        self._presses.over(decision.press, why, past=past)
+
+    def _shown_before(self, plan: TargetPlan) -> int:
+        """How many steps people see before those of a plan that have not begun."""
+        free = {id(step) for step in plan.not_begun}
+        begun = [step.call for step in plan.steps if id(step) not in free]
+        return len(begun) - sum(for_next(begun, self._plans.catalogue(plan.target)))
+
+    def _refuse_edit(
+        self,
+        plan: TargetPlan,
+        decision: PlanDecision,
+        calls: Sequence[ActionCall],
+        problems: Sequence[Problem],
+    ) -> None:
+        """Tell everybody which of the steps that a person put together cannot be carried out."""
+        self._plans.refuse(topics.PLAN_DECISION.name, plan.target, problems)
+        before = 0 if decision.id else self._shown_before(plan)
+        why = orders.impossible(calls, self._plans.catalogue(plan.target), problems, before)
+        self._undone(decision, why)
 
     def _begin(
         self, plan: TargetPlan, decision: PlanDecision, proposal: PlanProposal, calls: list[ActionCall]
@@ -187,6 +224,7 @@ class Decisions:
                 self._plans.send(plan, plan.start())
         else:
             self._plans.send(plan, [])
+        self._presses.over(decision.press)
 
     def _edit(self, target: str, decision: PlanDecision) -> None:
         """Put other steps in the place of all that have not begun; whoever edits has said yes to them."""
@@ -196,7 +234,7 @@ class Decisions:
                 "revision", "the plan is another by now", "edit it as it is now", "past_revision"
             )
             self._plans.refuse(topics.PLAN_DECISION.name, target, [problem])
-            self._plans.say(target, orders.PLAN_CHANGED, "error")
+            self._undone(decision, orders.PLAN_CHANGED, past=True)
             return
         free = {id(step) for step in plan.not_begun}
         begun = [index for index, step in enumerate(plan.steps) if id(step) not in free]
@@ -206,9 +244,10 @@ class Decisions:
             calls = complete_calls(calls, catalogue, known=len(known))
             problems = check_calls(calls, catalogue, before=known, known=known, path="steps")
         if problems:
-            self._plans.refuse_edit(plan, decision.steps, problems)
+            self._refuse_edit(plan, decision, decision.steps, problems)
         else:
             self._plans.send(plan, plan.edit(calls))
+            self._presses.over(decision.press)
 
     def _set_policy(self, target: str, policy: Policy | Literal[""]) -> None:
         if policy:

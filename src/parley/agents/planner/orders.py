@@ -18,7 +18,7 @@ from parley.sentences import Sentence, sentence
 __all__ = [
     "BEGUN_ALREADY", "LEFT", "MOST_WAITING", "NOTHING_DONE", "NOT_AS_SHOWN", "PLAN_CHANGED",
     "STEP_OVER", "TOO_MANY_WAIT",
-    "WAITING", "WAITING_HELPLESS", "bare", "forgetting", "impossible", "in_order",
+    "WAITING", "WAITING_HELPLESS", "WAITS_NO_MORE", "bare", "forgetting", "impossible", "in_order",
     "no_robot", "of_memory", "of_plans", "reasons", "take_repair",
 ]  # fmt: skip
 
@@ -43,6 +43,7 @@ MOST_WAITING: Final = 20
 TOO_MANY_WAIT: Final = sentence(
     "Too much waits for your yes already, so I have not taken that up. Say no to what you no longer want."
 )
+WAITS_NO_MORE: Final = "That plan is no longer waiting for an answer."
 PLAN_CHANGED: Final = "The plan has changed in the meantime, so I left it as it is. Please look at it again."
 
 
@@ -52,9 +53,19 @@ def no_robot(name: str, known: str) -> str:
 
 
 def impossible(
-    calls: Sequence[ActionCall], catalogue: Sequence[ActionInfo], problems: Sequence[Problem]
+    calls: Sequence[ActionCall],
+    catalogue: Sequence[ActionInfo],
+    problems: Sequence[Problem],
+    before: int = 0,
 ) -> Sentence:
-    """Which step of an edit cannot be carried out, and why; of several the first."""
+    """Which step of an edit cannot be carried out, and why; of several the first.
+
+    Args:
+        calls: The steps that a person put together.
+        catalogue: Of the robot.
+        problems: What speaks against them.
+        before: How many steps stand before them.
+    """
     steps = [int(found[1]) for item in problems if (found := re.match(r"steps\[(\d+)\]", item.path))]
     at = min(steps, default=len(calls))
     if at >= len(calls):
@@ -68,15 +79,21 @@ def impossible(
         step = sentence("{step}", step=re.sub(r"\{[^{}]*\}", "…", label))
     return sentence(
         "I cannot do step {number}, “{step}”: {why}. I left everything as it is.",
-        number=at + 1 - sum(hidden[:at]),
+        number=before + at + 1 - sum(hidden[:at]),
         step=step,
         why=sentence(_WHY.get(code, "it does not fit there")),
     )
 
 
-def reasons(findings: Iterable[Finding]) -> list[str]:
-    """What rules say, each thing once."""
-    return list(dict.fromkeys(finding.sentence for finding in findings))
+def reasons(findings: Iterable[Finding], before: int = 0) -> list[str]:
+    """What rules say, each thing once; `before`: how many steps stand before those that were judged."""
+    return list(dict.fromkeys(_counted(finding.sentence, before) for finding in findings))
+
+
+def _counted(text: str, before: int) -> str:
+    if not (before and isinstance(text, Sentence) and isinstance(number := text.values.get("number"), int)):
+        return text
+    return Sentence.of(text.template, text.values | {"number": number + before})
 
 
 def take_repair(plan: TargetPlan, calls: Sequence[ActionCall]) -> list[Effect]:

@@ -12,7 +12,7 @@ from parley.agents.presence import ACQUAINTED_S
 from parley.agents.questions import SeenIds
 from parley.latest import Latest
 from parley.messages import topics
-from parley.messages.chat import Press, PressTaken
+from parley.messages.chat import Outcome, Press, PressTaken
 from parley.sentences import sentence
 
 __all__ = ["Presses"]
@@ -67,6 +67,20 @@ class Presses:
         newest = self._newest.get((press.page, robot), -1)
         if press.number <= newest or (press.to != self._run and not harmless):
             self._plans.say(robot, TOO_LATE, "error")
+            self.over(press, TOO_LATE)
             return False
         self._newest[press.page, robot] = press.number
         return True
+
+    def over(self, press: Press | None, why: str = "", *, past: bool = False) -> None:
+        """Tell what came of a press.
+
+        Args:
+            press: None: it is no button.
+            why: It was refused; empty: it is done.
+            past: Because what it was for is another by now.
+        """
+        if press is not None:
+            outcome: Outcome = "past" if past else "refused" if why else "done"
+            taken = PressTaken(run=self._run, id=press.id, outcome=outcome, why=self._node.spoken(why))
+            self._node.publish(topics.PRESS_TAKEN, taken)

@@ -270,7 +270,7 @@ class RobotPlans:
         queue: Sequence[ActionCall],
         *,
         correcting: bool = False,
-        decided: bool = False,
+        refuse: Callable[[Sequence[ActionCall], Sequence[Problem]], None] | None = None,
     ) -> list[ActionCall] | None:
         """The completed actions, or None (and everybody told) if the robot cannot carry them out.
 
@@ -278,29 +278,24 @@ class RobotPlans:
             plan: Of the robot.
             queue: The actions.
             correcting: Whether they take the failed step's place.
-            decided: Whether a person put them together.
+            refuse: Tells so where a person put them together.
         """
         catalogue = self.catalogue(plan.target)
         calls = complete_calls(queue, catalogue)
         put = plan.correction(calls) if correcting else calls
-        problems = check_calls(put, catalogue, path="steps" if decided else "queue")
+        problems = check_calls(put, catalogue, path="steps" if refuse else "queue")
         if not problems:
             return calls
-        if decided:
-            self.refuse_edit(plan, put, problems)
+        if refuse:
+            refuse(put, problems)
         else:
             self.refuse(topics.CHAT_ACTION.name, plan.target, problems)
             self.say(plan.target, orders.WAITING_HELPLESS if correcting else orders.NOTHING_DONE, "error")
         return None
 
-    def refuse_edit(self, plan: TargetPlan, calls: Sequence[ActionCall], problems: Sequence[Problem]) -> None:
-        """Tell everybody which of the steps that a person put together cannot be carried out."""
-        self.refuse(topics.PLAN_DECISION.name, plan.target, problems)
-        self.say(plan.target, orders.impossible(calls, self.catalogue(plan.target), problems), "error")
-
-    def forbid(self, target: str, judgement: Judgement) -> list[str]:
-        """Tell everybody what the rules forbid; in words."""
-        texts = orders.reasons(judgement.forbidden)
+    def forbid(self, target: str, judgement: Judgement, before: int = 0) -> list[str]:
+        """Tell everybody what the rules forbid, in words; `before`: how many steps stand before those."""
+        texts = orders.reasons(judgement.forbidden, before)
         self.say(target, together(*texts), "error")
         rules = tuple(dict.fromkeys(finding.rule for finding in judgement.forbidden))
         self._node.publish(topics.RULING, PlanRuling(order="", target=target, outcome="refused", rules=rules))

@@ -87,7 +87,7 @@ async def post_decision(robot: Robot, post: DecisionPost, web: Web, who: Who) ->
         raise WebProblem(
             409, "This is not the plan that waits for a yes.", "Look at it and decide again.", path="digest"
         )
-    await web.outbox.press(decision)
+    await (web.outbox.press_through if post.decision == "edit" else web.outbox.press)(decision)
     return Done()
 
 
@@ -100,7 +100,7 @@ async def put_policy(robot: Robot, put: PolicyPut, web: Web, who: Who) -> Done:
 
 @router.put("/{robot}/steps", dependencies=[may(Effect.EDIT)])
 async def put_steps(robot: Robot, put: StepsPut, web: Web, who: Who) -> Done:
-    """Replace all steps that have not begun; the plan shows whether that was taken."""
+    """Replace all steps that have not begun."""
     name = web.robot(robot).name
     plan = next((v for v in web.state.plans.views.values() if v.robot == name and v.kind == "plan"), None)
     if plan is None:
@@ -109,7 +109,7 @@ async def put_steps(robot: Robot, put: StepsPut, web: Web, who: Who) -> Done:
         raise WebProblem(
             409, "The plan has changed meanwhile.", "Look at it and change it again.", path="revision"
         )
-    await web.outbox.press(
+    await web.outbox.press_through(
         PlanDecision(target=name, decision="edit", steps=put.steps, revision=put.revision, by=who.by)
     )
     return Done()
