@@ -99,7 +99,7 @@ def admit(answer: ChatAction, heard: Heard) -> Admitted:
         refused.append(sentence("I only act where I was spoken to, so I leave the other robot alone."))
     commands: list[SystemCommand] = []
     concluded: list[str] = []
-    needs_yes, resumes, added = _doubted(answer.needs_yes), False, 0
+    needs_yes, resumes, added = _doubted(answer), False, 0
     for command in answer.system_cmd:
         match command.command:
             case "start":
@@ -153,10 +153,13 @@ def _for_another(other: ChatAction, order: ChatAction, named: Sequence[str]) -> 
     )
 
 
-def _doubted(words: str) -> str:
+def _doubted(answer: ChatAction) -> str:
     """Why an engine wants a yes itself; it may always ask for one."""
+    words = answer.needs_yes
     if not words:
         return ""
+    if answer.called:
+        return sentence("No robot here is called {words}", words=one_line(answer.called)[:80])
     if words == UNSURE_OF_ALL:
         return sentence("I am not sure that I understood you")
     return sentence("I did not understand “{words}”", words=one_line(words)[:80])

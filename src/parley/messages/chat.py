@@ -300,6 +300,8 @@ class ChatAction(Payload):
     offer: tuple[ActionCall, ...] = ()
     """Ours: steps of which a language engine is not certain: they are proposed. `needs_yes` says which words
     it did not understand."""
+    called: str = ""
+    """Ours, only in the answer to a message: who is called in it, where no robot is called so."""
     replaces: str = ""
     """Ours: the proposal in whose place these steps are proposed."""
     after: tuple[str, ...] = ()

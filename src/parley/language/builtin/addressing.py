@@ -7,17 +7,25 @@ from collections.abc import Sequence
 from rapidfuzz.distance import OSA
 
 from parley.language.base import Situation
-from parley.language.builtin.decision import Ask
+from parley.language.builtin.decision import Ask, Decision, Do
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.tokens import Token
+from parley.language.dialogue.speaker import Again
 
-__all__ = ["addressed"]
+__all__ = ["addressed", "for_nobody"]
 
 _BETWEEN = frozenset({"and", ",", "&", ":", "!", "-"})
 _BEFORE = frozenset({
     "hey", "hello", "hi", "ok", "okay", "please", "so", "now", "well", "yes", "no", "and", "right", "oh",
-    "both",
+    "both", ",",
 })  # fmt: skip
+_MARKS = ([","], ["!"], [":"])
+_ENDS = frozenset({".", "?", "!", ";"})
+_ASKING = [[word, "you"] for word in ("can", "could", "would", "will")]
+_AFTER = frozenset({".", "?", "!", ",", "please"})
+_INITIALS = 2
+"""Shorter ones are no names: "bays A, B, C"."""
+_SLIPS = 2
 _ALL = (
     "all of you", "both of you", "you all", "you both", "the two of you", "everyone", "everybody",
     "all robots",
@@ -25,13 +33,12 @@ _ALL = (
 )  # fmt: skip
 
 
-def addressed(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon) -> tuple[str, ...] | Ask:
+def addressed(situation: Situation, tokens: Sequence[Token]) -> tuple[str, ...] | Ask:
     """The robots that are called; a question where another one is named but not called.
 
     Args:
         situation: Says which robots there are, and which one hears.
         tokens: Of the message.
-        lexicon: Closed classes.
     """
     here = (situation.robot,) if situation.robot else ()
     if len(situation.robots) < 2:
@@ -39,7 +46,7 @@ def addressed(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon) -
     low = [token.low for token in tokens]
     names = {name.lower(): name for name in situation.robots}
     named = [at for at, word in enumerate(low) if word in names]
-    start = next((at for at, word in enumerate(low) if word not in _BEFORE and word != ","), 0)
+    start = next((at for at, word in enumerate(low) if word not in _BEFORE), 0)
     first = _run(low, start, names)
     last = _last_run(low, names)
     together = " ".join(word for word in low if word.isalpha())
@@ -48,7 +55,7 @@ def addressed(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon) -
         exact = not named and (not both or len(situation.robots) == 2) and "except" not in low
         return situation.robots if exact else Ask("Which of us do you mean? Please call them by their names.")
     if not named:
-        return _stranger(low, tokens, start, names, lexicon) or here
+        return here
     if set(named) <= set(first) | set(last):
         return tuple(dict.fromkeys(names[low[at]] for at in named))
     others = [names[low[at]] for at in named if names[low[at]] != situation.robot]
@@ -81,18 +88,65 @@ def _last_run(low: Sequence[str], names: dict[str, str]) -> list[int]:
     return []
 
 
-def _stranger(
-    low: Sequence[str], tokens: Sequence[Token], start: int, names: dict[str, str], lexicon: Lexicon
+def for_nobody(
+    made: Decision, situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, again: Again
 ) -> Ask | None:
-    """The question who is called, if it is nobody that is known."""
-    if start + 1 >= len(low) or low[start + 1] not in (",", "!", ":"):
+    """The question whether to do what somebody who is no robot here was told; None where nobody was.
+
+    Args:
+        made: What the message would lead to.
+        situation: Says which robots there are, and what else has a name.
+        tokens: Of the message.
+        lexicon: Words that are no names.
+        again: Decides about the message without the call.
+    """
+    names = {word for name in situation.robots for word in name.lower().split()}
+    acts = isinstance(made, Do) or (isinstance(made, Ask) and made.offer)
+    if not acts or not names or names & {token.low for token in tokens}:
         return None
-    word = low[start]
-    near = next(
-        (name for small, name in names.items() if len(word) > 2 and OSA.distance(word, small) <= 2), None
-    )
-    if near is not None and abs(len(near) - len(word)) < 2:
-        return Ask(f"Do you mean {near}?", (near,))
-    known = (word,) in lexicon.verbs or any(word in words for words in lexicon.classes.values())
-    called = tokens[start].text[:1].isupper() and word.isalpha() and not known
-    return Ask(f"I know nobody called {tokens[start].text}. Is that for me?") if called else None
+    if (found := _unknown_call(situation, tokens, lexicon)) is None:
+        return None
+    called, rest = found
+    near = next((name for name in situation.robots if _is_near(called.lower(), name.lower())), None)
+    if near is not None and near != situation.robot:
+        return Ask(f"Do you mean {near}? Please call {near} by name first.")
+    plain = again(rest)
+    offer = plain.deeds if isinstance(plain, Do) else plain.offer if isinstance(plain, Ask) else ()
+    if not offer:
+        return Ask(f"No robot here is called {called}. Please say it again without that name.")
+    question = f"Do you mean {near}?" if near else f"No robot here is called {called}. Shall I do it?"
+    return Ask(question, offer=offer, unclear=called, called=called)
+
+
+def _unknown_call(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon) -> tuple[str, str] | None:
+    """A name with which a message begins or ends, known to nobody, and the message without it."""
+    low, text, verbs = [token.low for token in tokens], situation.message, lexicon.verbs
+    places = {
+        word
+        for thing in (*situation.objects, *situation.rooms)
+        for name in (thing.description, thing.class_name, *thing.aliases)
+        for word in name.lower().replace("_", " ").split()
+    }
+
+    def unknown(at: int, *, apart: bool) -> bool:
+        known = low[at] in places or any(low[at] in words for words in lexicon.classes.values())
+        is_name = len(low[at]) > _INITIALS and low[at].isalpha() and (apart or tokens[at].text[0].isupper())
+        return is_name and not known and not lexicon.frames_of((low[at],))
+
+    for begin in (0, *(at + 1 for at, word in enumerate(low) if word in _ENDS)):
+        start = next((at for at in range(begin, len(low) - 1) if low[at] not in _BEFORE), len(low) - 1)
+        apart = low[start + 1 : start + 2] in _MARKS
+        follows = low[start + 1 + apart : start + 2 + apart]
+        told = follows and follows[0] in lexicon.classes["predicates"]  # "Kim is in the yard"
+        orders = follows and not told and (low[start + 1 : start + 3] in _ASKING or (follows[0],) in verbs)
+        if follows and (apart or orders) and unknown(start, apart=apart):
+            rest = text[: tokens[start].start] + text[tokens[start + 1 + apart].start :]
+            return tokens[start].text, rest
+    end = next((at for at in range(len(low) - 1, 0, -1) if low[at] not in _AFTER), 0)
+    if end > 1 and low[end - 1] == "," and unknown(end, apart=False):
+        return tokens[end].text, text[: tokens[end - 1].start] + text[tokens[end].end :]
+    return None
+
+
+def _is_near(word: str, name: str) -> bool:
+    return abs(len(name) - len(word)) < _SLIPS and OSA.distance(word, name) <= _SLIPS

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from parley.gate.assent import gives_up
 from parley.language.base import Situation
-from parley.language.builtin.addressing import addressed
+from parley.language.builtin.addressing import addressed, for_nobody
 from parley.language.builtin.answers import answer, look_asked_for
 from parley.language.builtin.checks import whole_names
 from parley.language.builtin.decision import Answer, Ask, Control, Decision, Deed, Do, Remember, Told
@@ -54,12 +54,24 @@ def decide(
         reader: Reads what is remembered.
         again: Decides about a part of the message, or about what was said before.
     """
+    tokens = spoken(tokenize(situation.message)) or tokenize(situation.message)
+    made = _decided(situation, tokens, parts, skills, lexicon, reader, again)
+    return for_nobody(made, situation, tokens, lexicon, again) or made
 
+
+def _decided(
+    situation: Situation,
+    tokens: Sequence[Token],
+    parts: tuple[Part, ...],
+    skills: Skills,
+    lexicon: Lexicon,
+    reader: Callable[[str], Reading],
+    again: Again,
+) -> Decision:
     def told_in(text: str) -> tuple[Told, ...]:
         starts = [token.start for token in spoken(tokenize(text)) or tokenize(text)]
         return told_of(reader(text), text, starts, lexicon)
 
-    tokens = spoken(tokenize(situation.message)) or tokenize(situation.message)
     whole = reader(situation.message)
     indirect = meant(tokens, (situation.robot,), lexicon, again)
     if indirect is not None:
@@ -127,7 +139,7 @@ def _sight(
     """The look that is asked for, with the way there."""
     names = named(tokens, situation.objects, lexicon)
     rooms = [] if names else named(tokens, situation.rooms, lexicon)
-    robots = addressed(situation, tokens, lexicon)
+    robots = addressed(situation, tokens)
     sight = sight_asked_for(situation, tokens, names or rooms, lexicon, counting="COUNT" in skills)
     if sight is None or sight.frame not in skills or situation.queue or isinstance(robots, Ask):
         return None
@@ -193,7 +205,7 @@ def _alone(
     if not orders:
         whole = _whole([part.reading for part in parts if part.clause.link == "main"])
         return _without_order(situation, whole, told, lexicon, reader)
-    robots = addressed(situation, tokenize(situation.message), lexicon)
+    robots = addressed(situation, tokenize(situation.message))
     if not isinstance(robots, Ask) and len(situation.robots) > 1:
         parts = tuple(_without_call(part, situation.robots, robots == situation.robots) for part in parts)
     doubt = robots if isinstance(robots, Ask) else None
@@ -307,7 +319,7 @@ def _without_order(
 ) -> Decision:
     command = control_of(situation.message, situation.robots)
     if command is not None:
-        called = addressed(situation, tokenize(situation.message), lexicon)
+        called = addressed(situation, tokenize(situation.message))
         robots = () if isinstance(called, Ask) else called
         return Control("stop" if command == "emergency_stop" else command, robots)
     if facts:

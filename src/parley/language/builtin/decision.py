@@ -81,6 +81,8 @@ class Ask:
     """What a yes would do."""
     unclear: str = ""
     """Of an offer the words that were not understood, or "…" where it is the whole that is doubtful."""
+    called: str = ""
+    """Who is called in it, where no robot is called so."""
     stops: bool = False
     """Whether the robot stands still until it is answered."""
     alarms: bool = False

@@ -423,13 +423,13 @@ _LEADING = frozenset({"with", "to", "for", "at", "of", "by", "from", "in", "into
 
 
 def _is_name(word: str, lexicon: Lexicon) -> bool:
-    """Whether the first word of a message may be the name of who is called: it is no word that is known."""
+    """Whether the first word of a message may be left out: the name of who is called, "perfect, ..."."""
     verbs = any((lemma,) in lexicon.verbs for lemma in lemmas(word))
     return (
         word.isalpha()
         and len(word) > 2
         and not verbs
-        and not any(word in c for c in lexicon.classes.values())
+        and not any(word in words for name, words in lexicon.classes.items() if name != "openers")
     )
 
 

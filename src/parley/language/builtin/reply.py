@@ -56,6 +56,7 @@ def to_chat(decision: Decision, lexicon: Lexicon) -> ChatAction:
                 alarm=decision.alarms,
                 offer=_calls(decision.offer, lexicon),
                 needs_yes=decision.unclear,
+                called=decision.called,
             )
         case Edit():
             return _changed(decision, lexicon)
