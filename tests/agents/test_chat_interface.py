@@ -299,6 +299,16 @@ async def test_those_who_will_do_it_say_so_whoever_heard_it(
     assert [said.targets for said in room.observer.said if said.message == "I will look."] == [called]
 
 
+async def test_a_question_about_what_another_robot_is_told_is_asked_by_that_one(room: Room) -> None:
+    room.language.will(
+        "interpret", ChatAction(message_response="Which box?", choices=("red", "blue"), targets=("B",))
+    )
+    room.observer.say("B, look at the box", "A")
+    await room.reply(2)
+    asked = {said.targets: (said.message, said.choices) for said in room.observer.said}
+    assert asked == {("A",): ("That is for B.", ()), ("B",): ("Which box?", ("red", "blue"))}
+
+
 async def test_emergency_stop_goes_straight_to_the_engines(room: Room) -> None:
     room.observer.say("emergency stop", "A")
     await room.orders()

@@ -72,6 +72,13 @@ describe('offered answers', () => {
     expect([...offering([offer, entry({ id: 'said', who: 'operator', targets: ['Bob'] })])]).toEqual(['offer']);
   });
 
+  it('of a robot that was called elsewhere can be tapped until it replied to what was said there', () => {
+    const asked = [entry({ id: 'one', who: 'operator', targets: ['Bob'] }), entry({ ...offer, reply_to: 'one' })];
+    const answered = [entry({ id: 'two', who: 'operator', targets: ['Bob'] }), entry({ id: 'reply', reply_to: 'two' })];
+    expect([...offering(asked)]).toEqual(['offer']);
+    expect([...offering([...asked, ...answered])]).toEqual([]);
+  });
+
   it('of a question can be tapped until it is answered', () => {
     const asked = { ...question('q', 1, 'Ada'), choices: ['yes'] };
     const said = entry({ id: 'said', who: 'operator' });

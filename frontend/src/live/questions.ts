@@ -49,9 +49,14 @@ export function conversation(chat: readonly ChatEntry[], chosen: readonly string
 export function offering(chat: readonly ChatEntry[]): ReadonlySet<string> {
   const offers = new Set<string>();
   const spokenTo = new Set<string>();
+  const called = new Map<string, readonly string[]>(); // who replied to a message: perhaps others than those it was said to
   for (const entry of chat.toReversed()) {
-    if (entry.who === 'operator') entry.targets.forEach((robot) => spokenTo.add(robot));
-    else if (entry.choices.length > 0 && stillOffers(entry, spokenTo)) offers.add(entry.id);
+    if (entry.who === 'operator') {
+      for (const robot of [...entry.targets, ...(called.get(entry.id) ?? [])]) spokenTo.add(robot);
+      continue;
+    }
+    called.set(entry.reply_to, [...(called.get(entry.reply_to) ?? []), ...entry.targets]);
+    if (entry.choices.length > 0 && stillOffers(entry, spokenTo)) offers.add(entry.id);
   }
   return offers;
 }

@@ -34,6 +34,13 @@ def test_an_order_to_somebody_who_is_not_there_is_offered(said: str, robots: tup
     assert [deed.arguments.get("place") for deed in decision.offer][-1] == "office"
 
 
+@pytest.mark.parametrize("said", ["Bo, go to the moon", "Bo, glorp to the zorg"])
+def test_what_is_asked_about_the_order_of_another_robot_is_asked_by_that_one(said: str) -> None:
+    decision = ENGINE.decide(situation(said, robots=("Ada", "Bo")))
+    assert isinstance(decision, Ask)
+    assert decision.robots == ("Bo",)
+
+
 @pytest.mark.parametrize(
     "said",
     [

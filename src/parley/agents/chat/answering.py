@@ -218,7 +218,7 @@ class Answering:
             reply = together(reply, texts.AFTERWARDS)
         if not (order.queue or order.system_cmd or order.replaces or understood.choices):
             reply = texts.still_standing(reply, said.message, paused=self._known.state(target) == "paused")
-        speakers = order.targets if order.queue else (target,)
+        speakers = order.targets if order.queue or not (order.system_cmd or order.replaces) else (target,)
         if target not in speakers:
             self.say((target,), texts.that_is_for(speakers), "response", said.id)
         for speaker in speakers:
@@ -234,7 +234,8 @@ class Answering:
         left = understood.left_open
         if asks or left.where or order.alarm:
             about = Asked(left.about or said.message, understood.choices, left.where, order.alarm)
-            self._known.log(target).on_asked(about)
+            for name in {target, *speakers}:  # it may be answered where it was said, too
+                self._known.log(name).on_asked(about)
         self._known.log(target).on_left_open(said.message, left)
         self._node.publish(
             topics.CHAT_FEEDBACK,

@@ -56,7 +56,11 @@ def decide(
     """
     tokens = spoken(tokenize(situation.message)) or tokenize(situation.message)
     made = _decided(situation, tokens, parts, skills, lexicon, reader, again)
-    return for_nobody(made, situation, tokens, lexicon, again) or made
+    made = for_nobody(made, situation, tokens, lexicon, again) or made
+    called = addressed(situation, tokens) if isinstance(made, Ask) else ()
+    if isinstance(made, Ask) and not isinstance(called, Ask) and situation.robot not in called:
+        return replace(made, robots=called)  # it is their order that is asked about
+    return made
 
 
 def _decided(

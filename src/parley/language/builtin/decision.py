@@ -93,6 +93,8 @@ class Ask:
     """Whose or what's place is asked for; `you` for who speaks."""
     about: str = ""
     """The order that it is about, where that is not the message."""
+    robots: tuple[str, ...] = ()
+    """Who asks, where that is not the one that hears it."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -57,6 +57,7 @@ def to_chat(decision: Decision, lexicon: Lexicon) -> ChatAction:
                 offer=_calls(decision.offer, lexicon),
                 needs_yes=decision.unclear,
                 called=decision.called,
+                targets=decision.robots,
             )
         case Edit():
             return _changed(decision, lexicon)
