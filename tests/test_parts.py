@@ -14,7 +14,7 @@ from parley.demos.catalogue import load_demo
 from parley.demos.runner import play
 from parley.messages import topics
 from parley.messages.principal import person
-from parley.messages.status import StopCommand
+from parley.messages.status import ActorStatus, StopCommand
 from parley.messages.wire import to_string
 from parley.transport.base import Transport
 from tests.parts import ROBOT, parts, until_open
@@ -71,7 +71,7 @@ async def test_a_button_that_is_pressed_while_nobody_plans_is_told_of_and_does_n
                     await asyncio.sleep(0.2)
             await operator.until(lambda: operator.state(ROBOT) == "paused")
             await system.kill("agents")
-            assert await press("resume") == 200
+            assert await press("skip") == 200
             told = ""
             async with asyncio.timeout(60):
                 while "planning does not answer" not in told:
@@ -80,8 +80,68 @@ async def test_a_button_that_is_pressed_while_nobody_plans_is_told_of_and_does_n
             await system.start("agents")
             await system.until_met()
             assert system.statuses[ROBOT].state == "paused", "nothing begins by itself"
+            assert len(operator.plans[ROBOT].steps) == 2
             assert await press("resume") == 200
             await operator.until(lambda: operator.state(ROBOT) == "running")
+
+
+async def test_a_robot_is_paused_and_goes_on_while_those_who_plan_hang(tmp_path: Path) -> None:
+    async with parts(tmp_path, "router", "engine", "agents", "web") as system:
+        await until_open(f"tcp/127.0.0.1:{system.port}")
+        operator, clock = system.operator, WallClock()
+
+        async def until(state: str, *, rests: bool, within_s: float = 10.0) -> None:
+            async with asyncio.timeout(within_s):
+                while (now := system.statuses[ROBOT]).state != state or now.at_rest is not rests:
+                    system.beat.clear()
+                    await system.beat.wait()
+
+        operator.say("go to the fridge, then check if there is a water bottle", ROBOT)
+        await until("running", rests=False)
+        async with httpx.AsyncClient(base_url=f"http://127.0.0.1:{system.port}", timeout=20) as page:
+
+            async def press(command: str) -> None:
+                answer = await page.post(f"/api/plans/{ROBOT}/command", json={"command": command})
+                assert answer.status_code == 200, answer.text
+
+            async def states() -> set[str]:
+                return {plan["state"] for plan in (await page.get(f"/api/plans/{ROBOT}")).json()}
+
+            async def shown(state: str) -> None:
+                async with asyncio.timeout(10):
+                    while state not in await states():  # noqa: ASYNC110 - the page is asked as a program does
+                        await asyncio.sleep(0.05)
+
+            await shown("running")
+            system.freeze("agents")
+            began_s = clock.wall_s()
+            await press("pause")
+            await until("paused", rests=True, within_s=2.0)
+            print(f"stood after {clock.wall_s() - began_s:.2f} s")  # noqa: T201 - a figure for people
+            await shown("paused")
+            await press("resume")
+            await until("running", rests=False)
+            await shown("running")
+            await press("resume")
+            await press("pause")
+            await until("paused", rests=True, within_s=2.0)
+            await system.kill("engine")
+            await system.start("engine", "--speed", "4")
+            system.statuses[ROBOT] = ActorStatus(actor=ROBOT, holds=())
+            async with asyncio.timeout(60.0):  # started anew, it is held as it was
+                while not system.statuses[ROBOT].holds:
+                    system.beat.clear()
+                    await system.beat.wait()
+            system.thaw("agents")
+            await operator.until(lambda: operator.state(ROBOT) == "paused")
+            await system.settled()
+            await system.settled()
+            assert system.statuses[ROBOT].at_rest, "what was pressed before it does nothing late"
+            operator.say("carry on", ROBOT)
+            await until("running", rests=False)
+            assert not system.statuses[ROBOT].holds
+            await operator.until(lambda: operator.state(ROBOT) == "idle")
+            assert (system.begun("NavigateTo"), system.begun("Inspect")) == (2, 1)
 
 
 class Apart:

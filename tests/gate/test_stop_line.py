@@ -106,7 +106,10 @@ def test_holds_overlap_and_an_emergency_stop_wins() -> None:
     line.hold(["Ada"], id="d", by=KIM)
     line.reset(["Ada"], by=KIM)
     assert not ada.halted, "a person's release ends a hold whose reader may have died"
-    line.go_on("unknown")
+    line.go_on("late")
+    line.hold(["Ada"], id="late", by=KIM)
+    line.hold(["Ada"], id="a", by=KIM)
+    assert not ada.halted, "what comes behind its end, or a second time after it, holds nobody"
 
 
 def test_the_latch_is_on_disk_before_it_is_reported_and_in_doubt_everybody_is_latched(tmp_path: Path) -> None:

@@ -47,7 +47,97 @@ async def test_a_planner_of_another_make_gets_a_button_once() -> None:
         await post(rig, "command", command="pause")
         await rig.heard()
         assert [order.press for order in rig.robots.orders] == [None]
-        assert not rig.server.backend.outbox.waiting
+        await until(lambda: not rig.server.backend.outbox.waiting)
+
+
+class Engine:
+    """What the engine of Ada hears."""
+
+    def __init__(self, rig: Rig) -> None:
+        self.rig, self.heard = rig, list[str]()
+
+    async def listen(self) -> None:
+        transport = self.rig.robots.transport
+        await transport.subscribe(
+            topics.GRAPH_PAUSE, lambda m: self.heard.append(f"pause {m.umrf_graph_name}")
+        )
+        await transport.subscribe(
+            topics.GRAPH_RESUME, lambda m: self.heard.append(f"resume {m.umrf_graph_name}")
+        )
+
+    def told(self, state: str) -> None:
+        """It says how its graph fares."""
+        self.rig.robots.appear(
+            state=state.lower(), graphs={"g": state, "old": "HALTED"}, holds=sorted(self._held)
+        )
+
+    @property
+    def _held(self) -> set[str]:
+        held = set[str]()
+        for stop in self.rig.robots.stops:
+            (held.add if stop.command == "hold" else held.discard)(stop.id)
+        return held
+
+    @property
+    def is_held(self) -> bool:
+        """Whether its drive is."""
+        return bool(self._held)
+
+
+async def test_a_pause_needs_nobody_who_plans_nor_does_going_on_after_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(outbox, "HALTED_WITHIN_S", 0.1)
+    monkeypatch.setattr(outbox, "PRESSED_WITHIN_S", 0.3)
+    async with served("Ada") as rig:
+        page, engine = await rig.page(), Engine(rig)
+        await engine.listen()
+        rig.robots.tell(topics.PRESS_TAKEN, PressTaken(run="r1"))
+        steps = (PlanStep(action=ActionCall(name="Go"), state="running"),)
+        rig.robots.tell(topics.PLAN, PlanUpdate(target="Ada", graph_name="g", state="running", steps=steps))
+        engine.told("RUNNING")
+        await rig.heard()
+
+        await post(rig, "command", command="pause")
+        await until(lambda: engine.is_held and engine.heard == ["pause g"])
+        engine.told("PAUSED")
+        await page.until(lambda: page.of("chat"))
+        assert "stands still" in page.of("chat")[-1]["entry"]["message"]
+        assert engine.is_held, "what is planned late must not move it"
+
+        await post(rig, "command", command="resume")
+        await until(lambda: engine.heard[1:] == ["resume g"] and not engine.is_held)
+        await page.until(lambda: "to go on" in page.of("chat")[-1]["entry"]["message"])
+        engine.told("RUNNING")
+        await rig.heard()
+
+        await post(rig, "command", command="resume")
+        await post(rig, "command", command="pause")  # before the one before it is told to the robot
+        await until(lambda: engine.heard[2:] == ["pause g"])
+        engine.told("PAUSED")
+        taken = [order.press for order in rig.robots.orders if order.system_cmd[0].command == "stop"][-1]
+        assert taken is not None
+        rig.robots.tell(topics.PRESS_TAKEN, PressTaken(run="r1", id=taken.id))
+        await until(lambda: not engine.is_held)
+        await until(lambda: not rig.server.backend.outbox.waiting)
+        assert engine.heard[3:] == []
+
+
+async def test_a_plan_that_waits_for_a_person_is_not_gone_on_with_past_who_plans(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(outbox, "HALTED_WITHIN_S", 0.05)
+    monkeypatch.setattr(outbox, "PRESSED_WITHIN_S", 0.2)
+    async with served("Ada") as rig:
+        page, engine = await rig.page(), Engine(rig)
+        await engine.listen()
+        await planned(rig)
+        engine.told("PAUSED")
+        await rig.heard()
+        await post(rig, "command", command="resume")
+        await page.until(lambda: page.of("chat"))
+        assert "nothing may have been done" in page.of("chat")[-1]["entry"]["message"]
+        assert engine.heard == []
 
 
 async def test_what_was_pressed_before_something_else_is_not_sent_again(

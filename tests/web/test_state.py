@@ -453,6 +453,18 @@ def test_a_plan_that_is_over_says_so() -> None:
     assert plan_of(book, "").state == "idle"
 
 
+def test_whether_a_plan_stands_is_told_by_its_engine_while_who_plans_hangs() -> None:
+    book, _ = plans()
+    book.on_update(update(step("MoveTo", "running", "MoveTo_0")))
+    for state, shown in (("PAUSED", "paused"), ("RUNNING", "running"), ("PAUSED", "paused")):
+        book.on_event(event("", state))
+        book.on_event(event("MoveTo_0", progress=0.5))
+        assert plan_of(book).state == shown
+    book.on_update(update(step("MoveTo", "paused", "MoveTo_0"), state="paused"))
+    book.on_update(update(step("MoveTo", "running", "MoveTo_0")))
+    assert plan_of(book).state == "running", "who plans says so later"
+
+
 def test_graphs_that_others_started_are_watched() -> None:
     book, _ = plans()
     for number in range(6):

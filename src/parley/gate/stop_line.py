@@ -25,6 +25,7 @@ __all__ = ["WRITTEN_WITHIN_S", "StopLine", "StopOutcome"]
 
 WRITTEN_WITHIN_S: Final = 0.25
 """How long whoever pulls may wait until it is on disk; the robots are halted before that."""
+LET_GO_KEPT: Final = 1000
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +73,8 @@ class StopLine:
         self._known = set(robots)
         self._tied: dict[str, _Tied] = {}
         self._holds: dict[str, frozenset[str]] = {}
+        self._let_go: deque[str] = deque(maxlen=LET_GO_KEPT)
+        """The holds that were ended: a copy that comes late, or behind its end, holds nobody."""
         self._resets: deque[str] = deque(maxlen=100)
         """Ids of those that took effect: heard again, late, one must not release what was stopped since."""
         self._newest: dict[str, str] = {}
@@ -193,6 +196,8 @@ class StopLine:
         """
         command = StopCommand(command="hold", targets=self._meant(targets), id=id, by=by, words=words)
         with self._lock:
+            if id in self._let_go:
+                return
             self._holds[id] = frozenset(command.targets)
             tied = self._named(command.targets)
         for item in tied:
@@ -203,6 +208,7 @@ class StopLine:
     def go_on(self, id: str) -> None:
         """Let go what `hold` with that id held, as far as no other hold and no emergency stop holds it."""
         with self._lock:
+            self._let_go.append(id)
             targets = self._holds.pop(id, None)
             tied = () if targets is None else self._named(targets)
         for item in tied:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Final, Self, TypeAlias, TypeVar
 
@@ -20,7 +20,14 @@ from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, ChatRead, 
 from parley.messages.incident import GetIncidents, Incident, IncidentList
 from parley.messages.map import MapView
 from parley.messages.memory import AddToMemory, MemoryEvent, RemoveMemory
-from parley.messages.ros import ChatRequest, ChatResponse, String, UmrfGraphFeedback
+from parley.messages.ros import (
+    ChatRequest,
+    ChatResponse,
+    String,
+    UmrfGraphFeedback,
+    UmrfGraphPause,
+    UmrfGraphResume,
+)
 from parley.messages.status import (
     ActorStatus,
     GraphEvent,
@@ -94,6 +101,11 @@ class _Unread:
     overtaken: bool = False
     """By something newer: it is not sent again."""
 
+    @property
+    def is_past(self) -> bool:
+        """Whether it is a halt that something newer has followed."""
+        return self.overtaken and not isinstance(self.message, ChatInput) and halts(self.message)
+
 
 class Link:
     """Connects a `WebState` to a transport. Use as ``async with``.
@@ -133,6 +145,10 @@ class Link:
         """Of presses of which somebody waits to hear what came of them, by id."""
         self._planner, (self._page, self._pressed) = "", pressed
         self._planned = asyncio.Event()
+        self.holds: dict[str, tuple[str, ...]] = {}
+        """By what each robot's drive is held, as it says itself."""
+        self._foreign: set[str] = set()
+        """Robots whose engine is that of TeMoto."""
         self._losses = Losses(self._tell_lost)
         self._memory_waits: dict[str, list[asyncio.Future[MemoryEvent]]] = {}
 
@@ -154,6 +170,11 @@ class Link:
             publisher = self.transport.publisher(topic)
             self._stack.callback(publisher.close)
             self._publishers[kind] = publisher
+        self._pausing = self.transport.publisher(topics.GRAPH_PAUSE)
+        self._pausing_temoto = self.transport.publisher(topics.GRAPH_PAUSE_TEMOTO)
+        self._resuming = self.transport.publisher(topics.GRAPH_RESUME)
+        for end in (self._pausing, self._pausing_temoto, self._resuming):
+            self._stack.callback(end.close)
         state, now_ms = self._state, self._clock.unix_ms
         await self._listen(topics.ACTOR_STATUS, _reader(ActorStatus), self._on_status)
         await self._listen(topics.CHAT_INPUT, _reader(ChatInput), self._on_input)
@@ -199,9 +220,21 @@ class Link:
         | ChatFeedback,
     ) -> None:
         """Publish what an operator said or decided, or what is to be said to them, on its topic."""
-        if isinstance(message, StopCommand) and message.command in ("stop", "hold"):
+        if isinstance(message, StopCommand) and (message.command == "stop" or message.words):
             self._overtake(message.targets, words=True)
         self._publishers[type(message)].publish(to_string(message))
+
+    def pause(self, robot: str, graphs: Iterable[str]) -> None:
+        """Let an engine pause graphs, whoever plans; that of TeMoto listens to its own misspelling."""
+        ends = (self._pausing, self._pausing_temoto) if robot in self._foreign else (self._pausing,)
+        for name in graphs:
+            for end in ends:
+                end.publish(UmrfGraphPause(name, (robot,)))
+
+    def resume(self, robot: str, graphs: Iterable[str]) -> None:
+        """Let an engine go on with graphs that it paused, whoever plans."""
+        for name in graphs:
+            self._resuming.publish(UmrfGraphResume(name, (robot,)))
 
     async def say(self, message: ChatInput) -> None:
         """Publish an operator's words and wait until they come back: then the transport has carried them.
@@ -250,10 +283,13 @@ class Link:
                 unread.overtaken |= not robots or not unread.robots or bool({*robots} & {*unread.robots})
 
     async def until_read(self, ids: Sequence[str], *, again_s: float) -> None:
-        """Wait until all of that is read, and send it again meanwhile: who has read it knows its id."""
+        """Wait until all of that is read, and send it again meanwhile: who has read it knows its id.
+
+        Where something newer goes to the same robots it is not sent again, nor is a halt waited for then.
+        """
         waiting = [self._unread[identity] for identity in ids]
         try:
-            while unread := [each for each in waiting if not each.read.is_set()]:
+            while unread := [each for each in waiting if not (each.read.is_set() or each.is_past)]:
                 with contextlib.suppress(TimeoutError):
                     async with asyncio.timeout(again_s):
                         await unread[0].read.wait()
@@ -265,6 +301,10 @@ class Link:
         finally:
             for identity in ids:
                 del self._unread[identity]
+
+    def overtaken(self, press: str) -> bool:
+        """Whether something newer has gone to a robot than a press that waits to be taken."""
+        return press not in self._unread or self._unread[press].overtaken
 
     async def until_taken(self, message: Pressed, *, again_s: float) -> None:
         """Publish what a button does until somebody plans and has taken it, whatever comes in between."""
@@ -355,6 +395,8 @@ class Link:
 
     def _on_status(self, status: ActorStatus) -> None:
         before = self._state.robots.views.get(status.actor)
+        self.holds[status.actor] = status.holds
+        (self._foreign.add if status.engine == "temoto" else self._foreign.discard)(status.actor)
         restarted = self._state.robots.on_status(
             status, now_s=self._clock.wall_s(), unix_ms=self._clock.unix_ms()
         )

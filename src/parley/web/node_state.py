@@ -14,7 +14,7 @@ from parley.messages.work import Work
 from parley.umrf.model import Graph, Node
 from parley.web.models import ParameterView
 
-__all__ = ["OVER", "GraphTold", "NodeTold", "StepState", "parameter_views"]
+__all__ = ["OVER", "GraphShown", "GraphTold", "NodeTold", "StepState", "parameter_views"]
 
 StepState = Literal[
     "queued", "running", "finished", "failed", "stopped", "skipped", "paused", "stopping", "waiting"

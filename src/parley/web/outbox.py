@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 from collections.abc import Coroutine, Sequence
 from typing import Any, Final
 
@@ -16,6 +17,7 @@ from parley.messages.status import PlanDecision
 from parley.sentences import sentence
 from parley.web.link import Link, Pressed, halts, robots_of
 from parley.web.models import ChatEntry
+from parley.web.pausing import Pauser
 from parley.web.problems import WebProblem
 from parley.web.state import WebState
 from parley.web.stopping import Stopper
@@ -32,6 +34,16 @@ PRESSED_WITHIN_S: Final = 5.0
 """Wall time for which a button's press that nobody has taken is sent again: it acts soon, or not at all."""
 HALTED_WITHIN_S: Final = 1.0
 """Wall time after which people are told that a button may not have halted what it is for."""
+STOOD_WITHIN_S: Final = 1.0
+"""Wall time from when a halt was taken within which an engine says that nothing goes on."""
+_STANDS: Final = sentence(
+    "Planning does not answer, so the robot was told itself, and stands still. It can be told to go on; "
+    "all else has to wait."
+)
+_GOES_ON: Final = sentence(
+    "Planning does not answer, so the robot was told itself to go on with what it was doing; all else has to "
+    "wait."
+)
 _NOT_HALTED: Final = sentence(
     "A button was pressed, but planning does not answer, so what goes on may not have been halted by it. "
     "Press Stop if it must not go on."
@@ -73,6 +85,7 @@ class Outbox:
     ) -> None:
         self._link, self._store, self._state, self._clock = link, store, state, clock
         self._stopper, self._fresh = stopper, fresh_robots
+        self._pauser = Pauser(link, state, stopper)
         self.waiting: dict[str, asyncio.Task[None]] = {}
         """What waits for messages to be read, by entry, and for presses."""
 
@@ -157,10 +170,39 @@ class Outbox:
         return message
 
     def _send_press(self, message: Pressed, within_s: float) -> None:
+        hold = self._pauser.pause(message)
         self._link.press(message)
-        if message.press is not None:
+        if hold:
+            self.waiting[hold] = asyncio.create_task(self._until_halted(hold, message), name="web halt")
+        elif message.press is not None:
             work = self._until_taken(message.press.id, message, within_s)
             self.waiting[message.press.id] = asyncio.create_task(work, name="web press")
+
+    async def _until_halted(self, hold: str, message: Pressed) -> None:
+        """Send a halt until it is taken or something newer came; what is planned till then moves nothing."""
+        robots, press = robots_of(message), message.press
+        taking = asyncio.create_task(
+            self._link.until_read([press.id], again_s=AGAIN_S)
+            if press is not None
+            else self._pauser.until_stand(robots)  # nobody says that it was taken
+        )
+        try:
+            told = False
+            while not (await asyncio.wait({taking}, timeout=HALTED_WITHIN_S))[0]:
+                self._pauser.hold(message, hold)
+                if not told:
+                    self._tell_untaken(message, _STANDS if self._pauser.stand(robots) else _NOT_HALTED)
+                told = True
+            await taking
+            with contextlib.suppress(TimeoutError):
+                async with asyncio.timeout(STOOD_WITHIN_S):
+                    await self._pauser.until_stand(robots)
+        finally:
+            taking.cancel()
+            self._pauser.release(message, hold)
+        if press is not None:
+            await self._forget(self._store.drop_press(message))
+        del self.waiting[hold]
 
     async def _until_taken(self, press: str, message: Pressed, within_s: float) -> None:
         told = False
@@ -168,9 +210,8 @@ class Outbox:
             async with asyncio.timeout(within_s):
                 taking = asyncio.create_task(self._link.until_read([press], again_s=AGAIN_S))
                 try:
-                    if halts(message) and not (await asyncio.wait({taking}, timeout=HALTED_WITHIN_S))[0]:
-                        self._tell_untaken(message, _NOT_HALTED)
-                        told = True
+                    if not (await asyncio.wait({taking}, timeout=HALTED_WITHIN_S))[0]:
+                        told = self._act_unplanned(message)
                     await taking
                 finally:
                     taking.cancel()
@@ -179,6 +220,17 @@ class Outbox:
                 self._tell_untaken(message, _NOT_TAKEN)
         await self._forget(self._store.drop_press(message))
         del self.waiting[press]
+
+    def _act_unplanned(self, message: Pressed) -> bool:
+        """Do or say what cannot wait for planning; whether people were told."""
+        assert message.press is not None
+        if halts(message):
+            self._tell_untaken(message, _NOT_HALTED)
+            return True
+        if self._link.overtaken(message.press.id) or not self._pauser.go_on(message):
+            return False
+        self._tell_untaken(message, _GOES_ON)
+        return True
 
     def _tell_untaken(self, message: Pressed, text: str) -> None:
         told = ChatFeedback(message=text, targets=robots_of(message), type="error")
@@ -205,6 +257,8 @@ class Outbox:
             if not self._fresh and 0 < left_s <= PRESSED_WITHIN_S:
                 self._send_press(message, left_s)
                 continue
+            if message.press is not None:
+                self._pauser.release(message, message.press.id)
             self._tell_untaken(message, _CUT_OFF)
             await self._store.drop_press(message)
 

@@ -22,7 +22,7 @@ from parley.web.models import (
     ProposalView,
     StepView,
 )
-from parley.web.node_state import OVER, GraphTold, NodeTold, StepState, parameter_views
+from parley.web.node_state import OVER, GraphShown, GraphTold, NodeTold, StepState, parameter_views
 
 __all__ = ["PlanBook"]
 
@@ -49,6 +49,8 @@ class PlanBook:
         self._updates: dict[str, PlanUpdate] = {}
         self._free_since: dict[str, int] = {}
         self._graphs: dict[tuple[str, str], GraphTold] = {}
+        self._since: dict[str, GraphShown] = {}
+        """What its engine told of each robot's plan since the planner last told another state of it."""
         self._past: Latest[tuple[str, str], None] = Latest(PAST_KEPT)
         """Graphs of plans that were replaced: what comes late about them is dropped."""
         self.decided: set[str] = set()
@@ -64,6 +66,8 @@ class PlanBook:
             self._free_since[robot] = update.revision
         if before is not None and before.graph_name != update.graph_name:
             self._drop(robot, before.graph_name)
+        if before is None or (before.graph_name, before.state) != (update.graph_name, update.state):
+            self._since.pop(robot, None)
         for proposal in [p for p in self.proposals.values() if p.robot == robot]:
             waits = update.waits is None or proposal.id in update.waits
             if update.state == "idle" or not waits or proposal.id in self.decided:
@@ -154,6 +158,7 @@ class PlanBook:
             self._end_proposal(proposal.id)
         self._updates.pop(robot, None)
         self._free_since.pop(robot, None)
+        self._since.pop(robot, None)
 
     # -- what engines tell -----------------------------------------------------------------------------
 
@@ -166,6 +171,9 @@ class PlanBook:
         graph.on_event(event)
         update = self._updates.get(event.actor)
         if update is not None and update.graph_name == event.graph_name:
+            if event.kind == "graph":
+                self._since[event.actor] = graph.state
+                self._show_plan(update, update)
             self._show_step(update, event.node)
         else:
             self._show_graph(*key, graph)
@@ -197,6 +205,9 @@ class PlanBook:
             self._planned(update, number, nodes.get(step.node)) for number, step in enumerate(update.steps)
         )
         state: Literal["idle", "awaiting_approval", "running", "paused", "held", "ended"] = update.state
+        since = self._since.get(update.target)
+        if state in ("running", "paused") and since in ("running", "paused"):
+            state = since  # who plans may hang while people let the robot stand and go on
         shown = self.views.get(key)
         self._put(
             PlanView(

@@ -85,9 +85,9 @@ class Stopper:
         return ""
 
     def hold(self, targets: Iterable[str], *, by: Principal | None, id: str, words: str) -> None:
-        """Let robots, and whom the words call, stand while they are read; sent again it holds nobody."""
+        """Let robots, and whom the words call, stand while they are read; words sent again hold nobody."""
         with self._lock:
-            if id in self._held:
+            if words and id in self._held:
                 return
             self._held[id] = None
         named = self._named((*targets, *called(words, [name for name, _ in self._views()])))
@@ -96,12 +96,12 @@ class Stopper:
         else:
             self._send(StopCommand(command="hold", targets=named, id=id, by=by, words=words))
 
-    def go_on(self, id: str) -> None:
-        """Nobody will read that message: let those go on whom it held."""
+    def go_on(self, id: str, *, by: Principal | None = None) -> None:
+        """Nobody will read that message, or the button was taken: let those go on whom it held."""
         if self._line is not None:
             self._line.go_on(id)
         else:
-            self._send(StopCommand(command="go_on", id=id))
+            self._send(StopCommand(command="go_on", id=id, by=by))
 
     def states(self, stop: Stop) -> dict[str, RobotStop]:
         """How the robots of a stop fare now."""

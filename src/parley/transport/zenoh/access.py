@@ -90,7 +90,8 @@ _WATCHER: Final = Allowed(hears=(*_SHARED, *_OF_ROBOTS, f"{_FEEDS}/{_ANY}"))
 _PAGE: Final = Allowed(
     says=_names(
         topics.ADD_TO_MEMORY, topics.ATTENDANCE, topics.AUDIT, topics.CHAT_ACTION, topics.CHAT_FEEDBACK,
-        topics.CHAT_INPUT, topics.PLAN_DECISION, topics.REMOVE_MEMORY, topics.STOP,
+        topics.CHAT_INPUT, topics.GRAPH_PAUSE, topics.GRAPH_PAUSE_TEMOTO, topics.GRAPH_RESUME,
+        topics.PLAN_DECISION, topics.REMOVE_MEMORY, topics.STOP,
     ),
     hears=_WATCHER.hears,
     asks=_ANSWERED,
