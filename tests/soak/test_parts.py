@@ -164,3 +164,4 @@ async def test_whatever_part_is_gone_the_robot_stands_and_nothing_is_lost_or_don
         await operator.until(lambda: operator.state(ROBOT) == "idle")
         assert system.begun("NavigateTo") <= began + 1
         assert system.begun("Inspect") == 1
+        assert not system.heard("lacks") and not system.heard("did not get here"), "nobody missed anything"

@@ -17,7 +17,7 @@ import zenoh
 from parley.config import NetworkSettings
 from parley.errors import TransportTimeoutError, TypeMismatchError, UnavailableError
 from parley.messages.ros import ChatRequest, String
-from parley.messages.topics import Topic
+from parley.messages.topics import QoS, Topic
 from parley.transport.base import Endpoint
 from parley.transport.zenoh import ZenohTransport
 from parley.transport.zenoh.definitions import Definitions
@@ -28,6 +28,8 @@ from tests.transport.backends import free_port, until
 from tests.transport.peer import ECHO, HELLO, STOP, TALK
 
 BIG = "x" * 200_000
+KEPT = Topic("kept", String, "std_msgs/msg/String", QoS(kept=6))
+"""Of a topic of which as much is kept."""
 Role = Literal["peer", "client", "router"]
 
 
@@ -148,6 +150,37 @@ async def test_through_a_router_and_again_when_it_was_away(at: str) -> None:
             talker.publish(String("second"))
             await until(lambda: len(heard) == 2)
     assert heard == ["first", "second"]
+
+
+async def test_who_wants_it_hears_late_what_it_missed_while_the_router_was_away_once_and_in_turn(
+    at: str,
+) -> None:
+    heard: list[str] = []
+    acted: list[str] = []
+    newcomer: list[str] = []
+    async with AsyncExitStack() as ends:
+        async with listening(at, role="router"):
+            one = await ends.enter_async_context(connecting(at, role="client"))
+            other = await ends.enter_async_context(connecting(at, role="client"))
+            shows = await other.subscribe(KEPT, lambda message: heard.append(message.data), late=True)
+            acts = await other.subscribe(KEPT, lambda message: acted.append(message.data))
+            await until(lambda: hears(one, KEPT))
+            talker = one.publisher(KEPT)
+            talker.publish(String("first"))
+            await until(lambda: heard and acted)
+        await until(lambda: not hears(one, KEPT))
+        missed = [str(number) for number in range(8)]
+        for text in missed:
+            talker.publish(String(text))
+        async with listening(at, role="router"):
+            await until(lambda: hears(one, KEPT))
+            await other.subscribe(KEPT, lambda message: newcomer.append(message.data), late=True)
+            talker.publish(String("last"))
+            await until(lambda: heard[-1:] == acted[-1:] == newcomer[-1:] == ["last"])
+    assert heard == ["first", *missed[3:], "last"], "as much as is kept"
+    assert acted == ["first", "last"]
+    assert newcomer == ["last"], "who came later missed nothing"
+    assert (shows.dropped, acts.dropped) == (3, 8)
 
 
 async def test_a_process_that_ends_without_closing_ends_well_though_messages_come(at: str) -> None:

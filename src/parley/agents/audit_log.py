@@ -76,7 +76,7 @@ class AuditLog(Node):
         self._dropped, self._dropped_since = 0, 0
         self._ends: list[Subscription] = []
         self._missed = 0
-        """Messages that came faster than they were heard."""
+        """Messages that came faster than they were heard, or could not be heard late."""
         self._writer: asyncio.Task[None] | None = None
         self.problem = ""
         """Why what waits is not written, in plain words; empty: it is."""
@@ -146,7 +146,9 @@ class AuditLog(Node):
             except InvalidMessageError as error:
                 self.log.debug("unreadable message", topic=topic.name, problem=str(error))
 
-        self._ends.append(await self.subscribe_raw(topic, receive, depth=max(topic.qos.depth, 1000)))
+        end = await self.subscribe_raw(topic, receive, depth=max(topic.qos.depth, 1000), late=True)
+        if topic.qos.kept:  # else no message is an entry
+            self._ends.append(end)
 
     def _told(self, event: AuditEvent) -> list[AuditEvent]:
         """What others tell; what this log says about itself it says alone."""
@@ -183,7 +185,12 @@ class AuditLog(Node):
         self._dropped -= dropped
         if gap:
             self._dropped_since = 0
-            self._tell(sentence("Entries missing in the log of who did what: {count}.", count=dropped))
+            text = sentence(
+                "The log of who did what lacks {count} messages: its disk could not be written, or the "
+                "connection was away for too long. What was done then may not stand in it.",
+                count=dropped,
+            )
+            self._tell(text)
         return True
 
     def _gap(self) -> AuditEvent:

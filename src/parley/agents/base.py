@@ -138,10 +138,10 @@ class Node:
         self.publish(topics.CHAT_FEEDBACK, ChatFeedback(message=self.spoken(text), type="error"))
 
     async def subscribe_raw(
-        self, topic: Topic[M], handler: Handler[M], *, depth: int | None = None
+        self, topic: Topic[M], handler: Handler[M], *, depth: int | None = None, late: bool = False
     ) -> Subscription:
         """Subscribe to a topic whose messages need no decoding; closed with the node."""
-        subscription = await self.transport.subscribe(topic, handler, depth=depth)
+        subscription = await self.transport.subscribe(topic, handler, depth=depth, late=late)
         self.opened.push_async_callback(subscription.close)
         return subscription
 

@@ -28,6 +28,8 @@ class QoS:
     """How many messages wait for a slow subscriber; older ones are dropped (ROS: keep last)."""
     keep_all: bool = False
     """Nothing is dropped, whatever depth a subscriber asks for (ROS: keep all)."""
+    kept: int = 0
+    """How many each sender keeps for those who were cut off and want to hear late what they missed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,19 +53,19 @@ class Service(Generic[Req, Res]):
 
 
 def _string(
-    name: str, *, latched: bool = False, depth: int = 100, keep_all: bool = False
+    name: str, *, latched: bool = False, depth: int = 100, keep_all: bool = False, kept: int = 0
 ) -> Topic[ros.String]:
-    return Topic(
-        name, ros.String, "std_msgs/msg/String", QoS(latched=latched, depth=depth, keep_all=keep_all)
-    )
+    qos = QoS(latched=latched, depth=depth, keep_all=keep_all, kept=kept)
+    return Topic(name, ros.String, "std_msgs/msg/String", qos)
 
 
-CHAT_INPUT = _string("chat_interface_input")
-CHAT_FEEDBACK = _string("chat_interface_feedback")
-CHAT_ACTION = _string("chat_action")
-UMRF_CORRECTION = _string("umrf_correction")
+# What may carry pictures is kept less of.
+CHAT_INPUT = _string("chat_interface_input", kept=20)
+CHAT_FEEDBACK = _string("chat_interface_feedback", kept=100)
+CHAT_ACTION = _string("chat_action", kept=100)
+UMRF_CORRECTION = _string("umrf_correction", kept=100)
 ERROR_HANDLING = _string("error_handling_message")
-ADD_TO_MEMORY = _string("add_to_memory")
+ADD_TO_MEMORY = _string("add_to_memory", kept=20)
 REMOVE_MEMORY = _string("remove_memory")
 DISPLAY_FEED = _string("display_feed", depth=10)
 
@@ -85,22 +87,22 @@ GRAPH_FEEDBACK = Topic(
 )
 
 ACTOR_STATUS = _string("/parley/actor_status")
-GRAPH_EVENTS = _string("/parley/graph_events", depth=10_000)
-PLAN = _string("/parley/plan")
-PLAN_DECISION = _string("/parley/plan_decision")
+GRAPH_EVENTS = _string("/parley/graph_events", depth=10_000, kept=1000)
+PLAN = _string("/parley/plan", kept=100)
+PLAN_DECISION = _string("/parley/plan_decision", kept=100)
 RULING = _string("/parley/ruling", depth=1000)
 STEP = _string("/parley/step")
-STOP = _string("/parley/stop", keep_all=True)
-STOP_REPORT = _string("/parley/stop_report")
-REJECTION = _string("/parley/rejection")
+STOP = _string("/parley/stop", keep_all=True, kept=100)
+STOP_REPORT = _string("/parley/stop_report", kept=100)
+REJECTION = _string("/parley/rejection", kept=100)
 SYNC = _string("/parley/sync")
-MEMORY_EVENT = _string("/parley/memory_event")
+MEMORY_EVENT = _string("/parley/memory_event", kept=100)
 REPLY_DRAFT = _string("/parley/reply_draft", depth=1)
 CHAT_READ = _string("/parley/chat_read", latched=True, depth=100)
 PRESS_TAKEN = _string("/parley/press_taken", latched=True, depth=100)
 INCIDENT = _string("/parley/incident")
 MAP_VIEW = _string("/parley/map_view", depth=10)
-AUDIT = _string("/parley/audit", depth=10_000)
+AUDIT = _string("/parley/audit", depth=10_000, kept=1000)
 ATTENDANCE = _string("/parley/attendance", latched=True)
 RULES_IN_FORCE = _string("/parley/rules_in_force", latched=True, depth=1)
 PLACES_KEPT = _string("/parley/places_kept", latched=True, depth=1)

@@ -172,6 +172,7 @@ class Transport(Protocol):
         *,
         depth: int | None = None,
         along: Subscription | None = None,
+        late: bool = False,
     ) -> Subscription:
         """Open the receiving end of `topic`; a latched topic hands over its last message first.
 
@@ -181,6 +182,9 @@ class Transport(Protocol):
             depth: How many may wait; of more the oldest are dropped.
             along: A subscription whose messages and these are handled in the order in which they came, as far
                 as the backend can tell that order.
+            late: Whether what was missed while the connection was away is heard afterwards, in its turn, as
+                far as senders keep it (`QoS.kept`) and the backend can: for who shows or writes down, not for
+                who acts.
 
         Raises:
             TypeMismatchError: The name is in use with another type.

@@ -131,7 +131,7 @@ class Inbox(Generic[M]):
             before.bit_length() != self._dropped.bit_length()
         ):  # 1, 2, 4, 8, ...: a flood does not flood the log
             log.warning(
-                "messages dropped: more came at once than a subscriber takes",
+                "messages dropped: more came at once than a subscriber takes, or the connection was away",
                 topic=self._topic.name,
                 dropped=self._dropped,
                 depth=self._queue.maxlen,

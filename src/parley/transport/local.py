@@ -113,6 +113,7 @@ class LocalTransport:
         *,
         depth: int | None = None,
         along: Subscription | None = None,
+        late: bool = False,
     ) -> _LocalSubscription[M]:
         """See `Transport.subscribe`."""
         self._check_type(topic.name, topic.ros_type)

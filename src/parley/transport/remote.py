@@ -163,12 +163,13 @@ class RemoteTransport(Transport, Generic[G]):
         *,
         depth: int | None = None,
         along: Subscription | None = None,
+        late: bool = False,
     ) -> RemoteSubscription[M]:
         """See `Transport.subscribe`."""
         endpoint = self._endpoint(topic.name, topic.ros_type, "subscription")
         codec = self._codec(topic.type, topic.ros_type)
         inbox = {"handler": handler, "depth": depth, "along": along}
-        return await self._open_subscription(topic, codec, endpoint, inbox)
+        return await self._open_subscription(topic, codec, endpoint, inbox, late=late)
 
     async def serve(
         self, service: Service[Req, Res], handler: Callable[[Req], Awaitable[Res]]
@@ -231,7 +232,7 @@ class RemoteTransport(Transport, Generic[G]):
 
     @abstractmethod
     async def _open_subscription(
-        self, topic: Topic[M], codec: Codec[M], endpoint: Endpoint, inbox: dict[str, Any]
+        self, topic: Topic[M], codec: Codec[M], endpoint: Endpoint, inbox: dict[str, Any], *, late: bool
     ) -> RemoteSubscription[M]:
         """Open what hears; `inbox` holds what `Inbox` is told."""
 

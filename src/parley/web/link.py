@@ -383,7 +383,8 @@ class Link:
             self._losses.look()
             handle(payload)
 
-        subscription = await self.transport.subscribe(topic, receive, depth=max(topic.qos.depth, 1000))
+        depth, late = max(topic.qos.depth, 1000), topic is not topics.STOP  # a release may have overtaken it
+        subscription = await self.transport.subscribe(topic, receive, depth=depth, late=late)
         self._stack.push_async_callback(subscription.close)
         if topic.name in _MISSED:
             self._losses.watch(subscription)

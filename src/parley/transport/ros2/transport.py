@@ -108,8 +108,9 @@ class Ros2Transport(RemoteTransport[Graph]):
         return publisher
 
     async def _open_subscription(
-        self, topic: Topic[M], codec: remote.Codec[M], endpoint: Endpoint, inbox: dict[str, Any]
-    ) -> RosSubscription[M]:
+        self, topic: Topic[M], codec: remote.Codec[M], endpoint: Endpoint, inbox: dict[str, Any],
+        *, late: bool,
+    ) -> RosSubscription[M]:  # fmt: skip
         subscription = RosSubscription(self, topic, codec, endpoint, inbox)
         self._opened(subscription)
         subscription.made = self._node.create_subscription(

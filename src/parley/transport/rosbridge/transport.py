@@ -122,8 +122,9 @@ class RosbridgeTransport(RemoteTransport[Graph]):
         return publisher
 
     async def _open_subscription(
-        self, topic: Topic[M], codec: remote.Codec[M], endpoint: Endpoint, inbox: dict[str, Any]
-    ) -> RosbridgeSubscription[M]:
+        self, topic: Topic[M], codec: remote.Codec[M], endpoint: Endpoint, inbox: dict[str, Any],
+        *, late: bool,
+    ) -> RosbridgeSubscription[M]:  # fmt: skip
         subscription = RosbridgeSubscription(self, topic, codec, endpoint, inbox)
         is_first = not self.has(endpoint)
         self._opened(subscription, tell=is_first)

@@ -213,10 +213,10 @@ _WAYS: Final[Mapping[str, tuple[list[str], list[str]]]] = {
 }
 """What the router takes from whoever does this, and what it hands to him."""
 _LATE: Final[Mapping[str, tuple[list[str], list[str]]]] = {
-    "says": (["declare_queryable", "reply", "liveliness_token"], ["query", *_LOOK]),
-    "hears": (["query", *_LOOK], ["reply", "declare_queryable", "liveliness_token"]),
+    "says": (["declare_queryable", "reply", "liveliness_token"], ["query", "declare_subscriber", *_LOOK]),
+    "hears": (["query", "declare_subscriber", *_LOOK], ["reply", "declare_queryable", "liveliness_token"]),
 }
-"""The same beside the topic, where who comes late asks for what was said last on a latched one."""
+"""The same beside the topic, where who comes late, or was away, asks for what was said meanwhile."""
 _SHOWN: Final = {
     "says": KINDS["publisher"],
     "hears": KINDS["subscription"],

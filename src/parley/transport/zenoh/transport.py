@@ -42,6 +42,9 @@ _End = ZenohPublisher[Any] | ZenohSubscription[Any] | ZenohServer
 CLOSING_S: Final = 5.0
 """How long closing waits for the library; then the process goes on without."""
 SERVICE_QOS: Final = QoS(depth=10)
+NEVER_S: Final = 1e8
+"""A sender tells its newest number with each message alone: told besides, those who came later would hear all
+that it keeps, as if they had missed it."""
 _BLOCK: Final = zenoh.CongestionControl.BLOCK
 
 log = structlog.get_logger(__name__)
@@ -130,6 +133,12 @@ class ZenohTransport(RemoteTransport[Graph]):
                 made = ext.declare_advanced_publisher(
                     self._session, place, cache=cache, publisher_detection=True, **options
                 )
+            elif topic.qos.kept:
+                missed = ext.MissDetectionConfig(heartbeat=NEVER_S, sporadic_heartbeat=None)
+                cache = ext.CacheConfig(topic.qos.kept)
+                made = ext.declare_advanced_publisher(
+                    self._session, place, cache=cache, sample_miss_detection=missed, **options
+                )
             else:
                 made = self._session.declare_publisher(place, **options)
             self._show(token)
@@ -141,8 +150,9 @@ class ZenohTransport(RemoteTransport[Graph]):
         return publisher
 
     async def _open_subscription(
-        self, topic: Topic[M], codec: remote.Codec[M], endpoint: Endpoint, inbox: dict[str, Any]
-    ) -> ZenohSubscription[M]:
+        self, topic: Topic[M], codec: remote.Codec[M], endpoint: Endpoint, inbox: dict[str, Any],
+        *, late: bool,
+    ) -> ZenohSubscription[M]:  # fmt: skip
         place, token = self._place(endpoint, topic.qos)
         subscription: ZenohSubscription[M] = ZenohSubscription(token, self, topic, codec, endpoint, inbox)
         receive = Callback(subscription.on_sample, indirect=False)
@@ -152,6 +162,11 @@ class ZenohTransport(RemoteTransport[Graph]):
                 history = ext.HistoryConfig(detect_late_publishers=True, max_samples=topic.qos.depth)
                 subscription.end = ext.declare_advanced_subscriber(
                     self._session, place, receive, history=history
+                )
+            elif late and topic.qos.kept:
+                recovery = ext.RecoveryConfig(heartbeat=True, periodic_queries=None)
+                subscription.end = ext.declare_advanced_subscriber(
+                    self._session, place, receive, recovery=recovery
                 )
             else:
                 subscription.end = self._session.declare_subscriber(place, receive)
