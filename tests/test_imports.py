@@ -31,6 +31,7 @@ LAYERS: tuple[frozenset[str], ...] = (
             "engines",
             "deployment",
             "findings",
+            "door_check",
             "network_check",
             "robot_check",
             "ros_check",

@@ -11,6 +11,7 @@ from typing import Final
 
 from parley.clock import WallClock
 from parley.config import NetworkSettings, SystemConfig
+from parley.door_check import NOT_OURS, examine_door
 from parley.errors import InvalidMessageError, MissingExtraError, ParleyError
 from parley.findings import Finding
 from parley.messages import topics
@@ -32,7 +33,6 @@ _SAME: Final = "Look at domain, interface and tls: all parts need the same."
 _SAME_ROS: Final = (
     "Compare ROS_DOMAIN_ID, RMW_IMPLEMENTATION and ROS_AUTOMATIC_DISCOVERY_RANGE: all parts need the same."
 )
-_MEND: Final = "Start it there, or mend the address, or let it through the firewall."
 
 
 def examine_network(network: NetworkSettings | None) -> Iterable[Finding]:
@@ -43,15 +43,18 @@ def examine_network(network: NetworkSettings | None) -> Iterable[Finding]:
     if network.ros2 is None and network.rosbridge is None:
         yield from _domain(network.domain)
         yield from _multicast(network.interface)
-    for address in network.connect:
-        yield _address(address)
+    doors = [examine_door(address, network) for address in network.connect]
+    yield from doors
+    if network.role == "client" and doors and all(door.state == "wrong" for door in doors):
+        return  # there is no other way in
     try:
         yield from asyncio.run(_listen(network))
     except MissingExtraError as missing:
         yield Finding("network", "missing", str(missing))
     except ParleyError as error:
-        mend = "Start the router first, or mend `connect`." if network.ros2 is None else "See ROS 2 above."
-        yield Finding("network", "wrong", str(error), mend)
+        yield Finding(
+            "network", "wrong", str(error), NOT_OURS if network.ros2 is None else "See ROS 2 above."
+        )
 
 
 def _domain(domain: int) -> Iterable[Finding]:
@@ -92,15 +95,6 @@ def _interface(name: str) -> bytes:
         return socket.inet_aton(name)
     except OSError:
         return bytes(4) + struct.pack("@i", socket.if_nametoindex(name))  # any address, on that network
-
-
-def _address(address: str) -> Finding:
-    host, _, port = address.partition("/")[2].rpartition(":")
-    try:
-        with socket.create_connection((host.strip("[]"), int(port)), CONNECTS_WITHIN_S):
-            return Finding("network", "ok", f"{address} answers")
-    except (OSError, ValueError) as error:
-        return Finding("network", "wrong", f"{address} does not answer: {error}", _MEND)
 
 
 async def _listen(network: NetworkSettings) -> list[Finding]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from typing import Any, Final
 
 import zenoh
@@ -11,12 +12,17 @@ from parley.config import NetworkSettings
 from parley.files import read_text
 from parley.transport.zenoh.access import AccessFile, access_control
 
-__all__ = ["config"]
+__all__ = ["config", "reason"]
 
 ROUTER_WAIT_MS: Final = 5000
 """How long a client waits for its router when it begins."""
 GIVE_UP_MS: Final = 2000
 """How long one who takes nothing may hold up what is sent to others; then the link to it is closed."""
+
+
+def reason(error: zenoh.ZError) -> str:
+    """What the library says, without where in its source it says so."""
+    return re.sub(r"\s+at /\S+\.rs:\d+\.?", "", str(error))
 
 
 def config(network: NetworkSettings) -> zenoh.Config:
@@ -42,6 +48,8 @@ def config(network: NetworkSettings) -> zenoh.Config:
         "transport/link/tx/queue/congestion_control/block/wait_before_close": GIVE_UP_MS * 1000,
     }
     if network.tls is not None:
+        for file in (network.tls.authority, network.tls.certificate, network.tls.key):
+            read_text(file)  # as with `users` below
         certificate, key = str(network.tls.certificate), str(network.tls.key)
         settings |= {
             "transport/link/protocols": ["tls"],

@@ -31,7 +31,7 @@ from parley.transport.zenoh.ends import Declared, ZenohPublisher, ZenohServer, Z
 from parley.transport.zenoh.graph import Graph
 from parley.transport.zenoh.keys import Attachment, Node, all_tokens, gid_of, key
 from parley.transport.zenoh.lane import Lane
-from parley.transport.zenoh.session import config
+from parley.transport.zenoh.session import config, reason
 
 __all__ = ["ZenohTransport"]
 
@@ -88,7 +88,7 @@ class ZenohTransport(RemoteTransport[Graph]):
             await self.ask(self._begin)
         except zenoh.ZError as error:
             self._abandon()
-            raise UnavailableError(f"the network cannot be reached: {error}") from error
+            raise UnavailableError(f"the network cannot be reached: {reason(error)}") from error
         except BaseException:
             self._abandon()
             raise
