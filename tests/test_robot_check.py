@@ -79,7 +79,7 @@ async def test_a_robot_that_has_everything_is_found_well(kind: str) -> None:
         seen = await found(file, network)
     states = {subject: finding.state for subject, finding in seen.items()}
     assert states == dict.fromkeys(
-        ("discovery", "odometry", "TF", "clocks", "map", "Nav2", "velocities", "lock"), "ok"
+        ("discovery", "odometry", "TF", "clocks", "map", "scan", "camera", "Nav2", "velocities", "lock"), "ok"
     ) | {"button": "unused"}
     assert "is active" in seen["Nav2"].text
 
@@ -113,10 +113,14 @@ async def test_each_thing_that_is_wrong_is_said_with_how_to_mend_it() -> None:
 async def test_names_that_differ_are_found_and_named() -> None:
     async with robot("zenoh") as (_, _, file, network):
         wrong = replace(TOPICS, odom="odometry", cmd_vel="cmd_vel_nav", map_frame="world", amcl_pose="")
+        wrong = replace(wrong, scan="laser", camera="eye/compressed")
         seen = await found(file.model_copy(update={"topics": wrong, "action": "drive"}), network)
     assert "told on /A/odom: write that under topics, as `odom`" in seen["odometry"].remedy
     assert "base_link is known in map, and nobody tells where map is in world" in seen["TF"].text
     assert seen["velocities"].text == "nobody listens on /A/cmd_vel_nav"
+    assert (seen["scan"].text, seen["scan"].state) == ("nobody tells it on /A/laser", "missing")
+    assert "told on /A/scan: write that under topics, as `scan`" in seen["scan"].remedy
+    assert "told on /A/camera/image_raw/compressed" in seen["camera"].remedy
     assert seen["Nav2"].remedy == "Actions that are there: /A/navigate_to_pose; write one as `action`."
 
 

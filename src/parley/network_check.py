@@ -19,6 +19,7 @@ from parley.messages.ros import String
 from parley.messages.status import ActorStatus
 from parley.messages.wire import decode
 from parley.network import transport_of
+from parley.transport.base import Transport
 
 __all__ = ["examine_network"]
 
@@ -43,18 +44,23 @@ def examine_network(network: NetworkSettings | None) -> Iterable[Finding]:
     if network.ros2 is None and network.rosbridge is None:
         yield from _domain(network.domain)
         yield from _multicast(network.interface)
+    try:
+        transport = transport_of(SystemConfig(network=network), node="parley_doctor")
+    except MissingExtraError as missing:
+        yield Finding("network", "missing", str(missing))
+        return
+    except ParleyError as error:
+        yield Finding("network", "wrong", str(error), "See ROS 2 above.")
+        return
     doors = [examine_door(address, network) for address in network.connect]
     yield from doors
     if network.role == "client" and doors and all(door.state == "wrong" for door in doors):
         return  # there is no other way in
     try:
-        yield from asyncio.run(_listen(network))
-    except MissingExtraError as missing:
-        yield Finding("network", "missing", str(missing))
+        yield from asyncio.run(_listen(transport, network))
     except ParleyError as error:
-        yield Finding(
-            "network", "wrong", str(error), NOT_OURS if network.ros2 is None else "See ROS 2 above."
-        )
+        mend = NOT_OURS if network.ros2 is None else "See ROS 2 above."
+        yield Finding("network", "wrong", str(error), mend)
 
 
 def _domain(domain: int) -> Iterable[Finding]:
@@ -97,7 +103,7 @@ def _interface(name: str) -> bytes:
         return bytes(4) + struct.pack("@i", socket.if_nametoindex(name))  # any address, on that network
 
 
-async def _listen(network: NetworkSettings) -> list[Finding]:
+async def _listen(transport: Transport, network: NetworkSettings) -> list[Finding]:
     clock = WallClock()
     apart_ms: dict[str, int] = {}
 
@@ -108,7 +114,7 @@ async def _listen(network: NetworkSettings) -> list[Finding]:
             return
         apart_ms[status.actor] = status.unix_ms - clock.unix_ms() if status.unix_ms else 0
 
-    async with transport_of(SystemConfig(network=network), node="parley_doctor") as transport:
+    async with transport:
         await transport.subscribe(topics.ACTOR_STATUS, heard)
         await asyncio.sleep(LISTENS_S)
         others = [end for end in transport.endpoints() if end.elsewhere]

@@ -102,8 +102,8 @@ class _Look:
             navigation = await self._navigation(transport)
         seen = self._discovery()
         return [seen] if seen.state == "missing" and not self._heard else [
-            seen, self._odometry(), self._place(), *self._clocks(), *self._map(), *navigation,
-            self._velocities(), self._lock(), *self._button(),
+            seen, self._odometry(), self._place(), *self._clocks(), *self._map(), *self._senses(),
+            *navigation, self._velocities(), self._lock(), *self._button(),
         ]  # fmt: skip
 
     def _look(self, transport: Transport) -> None:
@@ -213,6 +213,23 @@ class _Look:
                 yield Finding(
                     "map", "unused", text, self._told_elsewhere("nav_msgs/msg/OccupancyGrid", "map")
                 )
+
+    def _senses(self) -> Iterator[Finding]:
+        """Whether somebody would tell what is listened to only when it is wanted."""
+        topics = self._topics
+        kinds = {name: topics.topic(name, kind, qos).ros_type for name, kind, qos in topics.told()}
+        for setting, name in (
+            ("scan", topics.scan), ("camera", topics.camera), ("detections", topics.detections),
+        ):  # fmt: skip
+            if not name or not self._ends:
+                continue
+            at = self._at(name)
+            if any(end.role == "publisher" and end.name == at for end in self._ends):
+                yield Finding(setting, "ok", f"told on {at}")
+                continue
+            mend = self._told_elsewhere(kinds[name], setting)
+            mend = f'{mend} If it has none: {setting}: ""'
+            yield Finding(setting, "missing", f"nobody tells it on {at}", mend)
 
     @property
     def _action(self) -> str:
