@@ -104,13 +104,8 @@ def _merged(parse: Parse) -> list[Span]:
     """Spans of one role that touch each other are one; a role behind a later verb belongs to that one."""
     found: list[Span] = []
     for span in parse.spans:
-        if span.end - span.start == 1 and parse.tokens[span.start].low in _BARE | _OVER:
-            led = any(span.end == other.start and other.role in "GR" for other in parse.spans)
-            if led or parse.tokens[span.start].low in _BARE:
-                continue
-        behind = parse.tokens[span.end].low if span.end < len(parse.tokens) else ""
-        if behind in _QUESTIONS and span.end - span.start == 1 and span.role in "TX":
-            continue  # "to answer their question" gives nobody a "their"
+        if _fills_nothing(parse, span):
+            continue
         last = found[-1] if found else None
         letter = span.end - span.start == 1 and len(parse.tokens[span.start].low) == 1
         if last is not None and last.role == "E" and letter and last.end == span.start:
@@ -142,6 +137,16 @@ def _merged(parse: Parse) -> list[Span]:
             span = replace(span, owner=nearest)
         found.append(span)
     return found
+
+
+def _fills_nothing(parse: Parse, span: Span) -> bool:
+    """Whether a span is a word that only leads to another one: "over to the desk", "their question"."""
+    word = parse.tokens[span.start].low
+    behind = parse.tokens[span.end].low if span.end < len(parse.tokens) else ""
+    if span.end - span.start > 1:
+        return False
+    led = any(span.end == other.start and other.role in "GR" for other in parse.spans)
+    return word in _BARE or (word in _OVER and led) or (behind in _QUESTIONS and span.role in "TX")
 
 
 def _listed_on(parse: Parse, span: Span) -> Span:
