@@ -112,6 +112,13 @@ async def test_a_told_rule_counts_after_its_yes_and_robots_stand_till_then() -> 
     assert (lifted.closes, lifted.id, talk.held, talk.talk.again("Ada")) == (asked.id, "", [], None)
 
 
+async def test_to_forget_a_rule_that_is_only_asked_about_is_a_no() -> None:
+    talk = Talk(STORE)
+    assert await talk.say("never go into the store") is not None
+    assert await talk.say("ok forget that rule") is not None
+    assert (talk.held, talk.talk.again("Ada")) == ([], None)
+
+
 async def test_a_rule_that_is_told_twice_is_asked_about_once() -> None:
     talk = Talk(STORE)
     first = await talk.say("nobody into the store between two and three")

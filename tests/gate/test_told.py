@@ -125,6 +125,10 @@ def test_everything_else_is_no_rule(text: str) -> None:
     ("text", "said"),
     [
         ("never go into the cellar", "I do not know where “cellar” is. You can draw it on the page Rules."),
+        (
+            "never go behind the cars any more",
+            "I do not know where “behind the cars” is. You can draw it on the page Rules.",
+        ),
         ("nobody through the door", "I know several places that are called “door”."),
         ("Ada must not juggle knives", "I know no action of mine that is called “juggle knives”."),
         ("not faster than 900 km/h", "I cannot drive at such a speed."),

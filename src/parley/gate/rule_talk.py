@@ -35,7 +35,8 @@ _LIST: Final = re.compile(
     r"|^(?:mis|millised) reeglid(?: on| kehtivad| sul on)?$"
 )
 _DROP: Final = re.compile(
-    r"^(?:please )?(?:drop|delete|remove|forget|lift|cancel) (?:the|that|this|those|your)(?: last| new)? "
+    r"^(?:(?:please|ok|okay|no|well|so|then|and|actually),? )*"
+    r"(?:drop|delete|remove|forget|lift|cancel) (?:the|that|this|those|your)(?: last| new)? "
     r"rules?"
     r"(?: (?:about|on|for|that) (?P<about>.+))?$"
     r"|^(?:palun )?(?:kustuta|tühista|unusta) reegel(?: (?P<kohta>.+?)(?: kohta)?)?$"
@@ -252,6 +253,9 @@ class RuleTalk:
         if _LIST.match(said):
             return RuleReply(self._listed())
         if found := _DROP.match(said):
+            waits = self._confirmations.closing(self._confirmations.proposed)
+            if waits and not (found["about"] or found["kohta"]):  # it is no rule yet
+                return await self._answer(waits, "no", by)
             return self._drop(found["about"] or found["kohta"] or "", by, to)
         if (place := lifted_place(text)) and (lifted := self._lift(place, by, to)) is not None:
             return lifted

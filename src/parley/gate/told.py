@@ -290,6 +290,9 @@ def _forbidden(said: str, world: _World) -> dict[str, Any] | NotUnderstood | Non
         if isinstance(area, NotUnderstood):
             return area
         return {"kind": "keep_out", "robots": who} | area
+    verb, _, where = _NO_LONGER.sub("", found["rest"]).partition(" ")
+    if verb in _DRIVE and where and where != "anywhere":  # not to go there is not to go nowhere
+        return _unknown(where)
     deed = _deed(found["rest"], world)
     if isinstance(deed, NotUnderstood):
         # "Never mind", "nobody is here" and the like are no rules.
@@ -383,9 +386,16 @@ def _area(words: str, world: _World, margin_m: float = _MARGIN_M) -> dict[str, A
         return _box(words, inside, _AROUND_M)
     if named:
         return NotUnderstood(sentence("I know several places that are called “{words}”.", words=words))
+    return _unknown(words)
+
+
+def _unknown(words: str) -> NotUnderstood:
     return NotUnderstood(
         sentence("I do not know where “{words}” is. You can draw it on the page Rules.", words=words)
     )
+
+
+_NO_LONGER: Final = re.compile(r" (?:any ?more|any longer|again|ever)$")
 
 
 def _names(item: MapObject) -> set[str]:

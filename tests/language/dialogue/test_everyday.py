@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from parley.language.base import Situation, Turn
@@ -103,3 +105,32 @@ def test_yes_go_there_takes_what_was_offered() -> None:
 def test_an_alarm_that_was_none_is_taken_as_that_later_too() -> None:
     made = ENGINE.decide(at("false alarm, he is fine"))
     assert isinstance(made, Answer) and "glad" in made.text
+
+
+DOCK = (*THINGS, MapObject("d", "charging dock", 0.0, 0.0))
+GATES = tuple(MapObject(f"g{n}", f"Gate {n}", float(n), 5.0) for n in "123")
+
+
+def test_home_is_where_it_charges_if_no_place_is_called_so() -> None:
+    made = ENGINE.decide(replace(at("go home"), objects=DOCK))
+    assert isinstance(made, Do) and made.deeds[-1].arguments == {"place": "charging dock"}
+    made = ENGINE.decide(replace(at("go to the nursing home"), objects=DOCK))
+    assert isinstance(made, Ask)
+
+
+def test_the_other_two_are_those_that_were_not_spoken_of() -> None:
+    turns = (Turn("operator", "check gate 2"), Turn("assistant", "I looked."))
+    made = ENGINE.decide(replace(at("check the other two as well", history=turns), objects=GATES))
+    assert isinstance(made, Do)
+    assert [deed.arguments["what"] for deed in made.deeds if deed.frame == "LOOK"] == ["Gate 1", "Gate 3"]
+
+
+def test_there_is_where_it_was_sent_last() -> None:
+    turns = (Turn("operator", "go to the gate"), Turn("assistant", "I will go to the gate."))
+    made = ENGINE.decide(at("look if the red crate is there", history=turns))
+    assert isinstance(made, Do) and made.deeds[0].arguments == {"place": "gate"}
+
+
+def test_a_robot_that_is_called_like_a_verb_knows_its_name() -> None:
+    made = ENGINE.decide(replace(at("Spot, come to the gate"), robot="Spot", robots=("Spot",)))
+    assert isinstance(made, Do)

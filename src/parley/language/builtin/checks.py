@@ -62,6 +62,9 @@ def check(builder: Ways, words: Sequence[str], text: str) -> Look | Ask:
         return where
     found: list[Deed] = []
     for place, statement in where:
+        if place is None and builder.before is not None and "there" in spoken[-1:] and not builder.at:
+            there = builder.before.description  # "look if it is open there"
+            place = Value(there, with_article(there), (builder.before,))
         way = builder.nearing(place) if place is not None and "GO" in builder.skills else []
         if isinstance(way, Ask):
             return way

@@ -210,8 +210,9 @@ def _alone(
         whole = _whole([part.reading for part in parts if part.clause.link == "main"])
         return _without_order(situation, whole, told, lexicon, reader)
     robots = addressed(situation, tokenize(situation.message))
-    if not isinstance(robots, Ask) and len(situation.robots) > 1:
-        parts = tuple(_without_call(part, situation.robots, robots == situation.robots) for part in parts)
+    if not isinstance(robots, Ask):
+        together = len(situation.robots) > 1 and robots == situation.robots
+        parts = tuple(_without_call(part, situation.robots or (situation.robot,), together) for part in parts)
     doubt = robots if isinstance(robots, Ask) else None
     nodes = arranged(parts, lexicon)
     if isinstance(nodes, Unclear):
@@ -311,7 +312,8 @@ def _without_call(part: Part, robots: tuple[str, ...], together: bool) -> Part:
     calling |= {"robot", "robots", "all", "both", "two", "everyone", "everybody"} if together else set()
     left = tuple(word for word in part.reading.left_over if word.lower() not in calling)
     loose = tuple(f for f in part.reading.loose if not {*f.words} <= calling | {"and", "of", "you", ","})
-    return replace(part, reading=replace(part.reading, left_over=left, loose=loose))
+    unsteady = tuple(word for word in part.reading.unsteady if word not in calling)
+    return replace(part, reading=replace(part.reading, left_over=left, loose=loose, unsteady=unsteady))
 
 
 def _without_order(

@@ -19,7 +19,7 @@ from parley.language.builtin.spatial import beside, picked
 from parley.language.builtin.things import Mention, link, noun_phrase
 from parley.language.builtin.tokens import Token, point_of, tokenize
 from parley.language.builtin.wishes import Wish
-from parley.language.dialogue.mentions import named
+from parley.language.dialogue.mentions import named, same_kind
 from parley.language.dialogue.places import distance_m, in_room
 from parley.language.dialogue.speaker import name_of
 from parley.language.lexicon import load_data
@@ -140,7 +140,8 @@ class Grounder:
 
     def _thing(self, frame: str, filler: Filler, mention: Mention, *, placed: bool = False) -> Value | Ask:
         """A thing or a place; `placed`: where it is, is said."""
-        before = self._spoken_of(filler, mention) or _at_point(filler) or self._room(frame, filler)
+        before = self._spoken_of(filler, mention) or _at_point(filler)
+        before = before or self._room(frame, filler) or self._home(frame, filler, mention)
         if before is not None:
             return before
         objects, lexicon = self.situation.objects, self.lexicon
@@ -262,6 +263,13 @@ class Grounder:
             return None
         return Value(found[0].description, with_article(found[0].description), (found[0],))
 
+    def _home(self, frame: str, filler: Filler, mention: Mention) -> Value | Ask | None:
+        """Where it charges as its home, if nothing else is called so."""
+        if frame != "GO" or mention.things or {*filler.words} - {"to", "back"} != {"home"}:
+            return None
+        dock = link(("charging", "dock"), 1, self.situation.objects, self.lexicon).things
+        return self._one_of(dock) if len(dock) == 1 else None
+
     def _in_room(self, frame: str, filler: Filler) -> MapObject | None:
         """Of a room as a goal the nearest thing in it, where the map has no rooms but things tell of them."""
         if not _may_be_room(frame, filler):
@@ -291,9 +299,15 @@ class Grounder:
             return None
         words = [word for word in filler.words if word not in ("other", "rest", "remaining", "of")]
         family = group(["all", *words], self.situation.objects, self.lexicon)
-        if family is None or family.doubt or not any(thing in self.mentioned for thing in family.things):
+        objects, spoken = self.situation.objects, self.mentioned or ([self.before] if self.before else [])
+        if (family is None or family.doubt) and spoken:  # "the other two", of what was spoken of before
+            alike = tuple(item for item in objects if same_kind(item, spoken[-1]))
+            left = len([item for item in alike if item not in spoken])
+            count = amount_of(words[-1:])
+            family = Group(alike) if count is not None and count.value == left else None
+        if family is None or family.doubt or not any(thing in spoken for thing in family.things):
             return Group(doubt=f"Which ones do you mean by “{filler.text}”?")
-        return Group(tuple(thing for thing in family.things if thing not in self.mentioned))
+        return Group(tuple(thing for thing in family.things if thing not in spoken))
 
     def _told_list(self, filler: Filler, mention: Mention) -> Group | None:
         """The things of a list that was told, by what they were called there."""

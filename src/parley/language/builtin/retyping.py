@@ -174,7 +174,7 @@ def _gone(wish: Wish) -> Wish:
     if {*verb} & {"come", "return"} and told <= _HITHER and {*verb, *told} & {"back", "return"}:
         return replace(wish, verb="come back", fillers=())
     wish = replace(wish, fillers=tuple(part for f in wish.fillers for part in _with_whom(f)))
-    company = [filler for filler in wish.all("G") if filler.words[0] == "with"]
+    company = [filler for filler in wish.all("G") if filler.words[0] == "with" and len(filler.words) > 1]
     if company:
         rest = (f for f in wish.fillers if f not in company)
         return replace(wish, frame="FOLLOW", fillers=(*rest, *(_without_first(f) for f in company)))

@@ -42,8 +42,9 @@ def same_word(one: str, other: str) -> bool:
 
 
 def same_kind(one: MapObject, other: MapObject) -> bool:
-    """Whether two things are called by the same noun: "red gate", "gate by the desk"."""
-    nouns = {main_word(stems(item.description.lower().split())) for item in (one, other)}
+    """Whether two things are called by the same noun: "red gate", "gate by the desk", "gate 2"."""
+    names = ([*stems(item.description.lower().split())] for item in (one, other))
+    nouns = {main_word((name[0], *(word for word in name[1:] if len(word) > 1))) for name in names}
     return len(nouns) == 1
 
 
