@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from parley.language.builtin.decision import Ask
 from parley.language.builtin.doubts import doubt
+from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.builtin.lexicon import lexicon
 from parley.language.builtin.planner import orders_of
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.steady import steadily
 from parley.language.builtin.tagger import shipped_tagger
 from parley.language.builtin.tokens import tokenize
+from tests.language.builtin.worlds import situation
 
 
 def reading(text: str) -> Reading:
@@ -38,3 +41,11 @@ def test_nonsense_is_not_steady() -> None:
         "to to from please it on",
     ]
     assert any(reading(text).unsteady for text in said)
+
+
+def test_words_behind_the_longest_that_is_read_break_nothing() -> None:
+    assert all(reading("box the if turn up gate bring slowly of " * times).unsteady for times in (29, 30))
+
+
+def test_to_wait_until_after_something_is_asked_about() -> None:
+    assert isinstance(BuiltinLanguage().decide(situation("The office can wait until after the desk.")), Ask)

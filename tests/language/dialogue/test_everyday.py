@@ -74,6 +74,10 @@ def test_who_is_to_look_at_nothing_named_looks_where_it_is(message: str) -> None
     assert calls(message) == ["look what can be seen here"]
 
 
+def test_a_room_is_looked_around_in_and_not_looked_for() -> None:
+    assert calls("have a look around the paint shop")[-1] == "look what can be seen in the paint shop"
+
+
 def test_a_look_that_is_only_led_to_is_one_look() -> None:
     assert calls("please look around and tell me what is at the gate") == ["look what is at the gate"]
 
@@ -134,3 +138,13 @@ def test_there_is_where_it_was_sent_last() -> None:
 def test_a_robot_that_is_called_like_a_verb_knows_its_name() -> None:
     made = ENGINE.decide(replace(at("Spot, come to the gate"), robot="Spot", robots=("Spot",)))
     assert isinstance(made, Do)
+
+
+def test_who_says_who_they_are_is_greeted() -> None:
+    made = ENGINE.decide(at("I'm Maria, the night nurse"))
+    assert isinstance(made, Answer) and made.text.startswith("Hello, Maria.")
+
+
+def test_whether_something_is_in_a_room_is_offered_to_be_looked_at() -> None:
+    made = ENGINE.decide(at("is there anything on the floor in the paint shop"))
+    assert isinstance(made, Ask) and [deed.frame for deed in made.offer] == ["GO", "LOOK"]

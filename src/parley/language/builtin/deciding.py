@@ -128,7 +128,10 @@ def _looking(
     sight = _sight(situation, tokens, skills, lexicon)
     if sight is not None:
         return sight
-    order = look_asked_for(tokens, named(tokens, situation.objects, lexicon))
+    names = named(tokens, situation.objects, lexicon)
+    spaces = [] if names else named(tokens, situation.rooms, lexicon)
+    order = look_asked_for(tokens, names or spaces)
+    order = f"go to the {spaces[0].text} and {order}" if order and spaces else order
     made = again(order) if order else None
     if isinstance(made, Ask) and made.choices:
         return made
@@ -332,6 +335,7 @@ def _without_order(
         return Remember(facts)
     if "question" in reading.acts:
         before, _ = policy.spoken_of(situation, (), lexicon)
+        before = None if before in situation.rooms else before  # a room is no "it"
         return answer(situation, reading, lexicon, reader, before)
     if not situation.question and situation.dialogue.asked is None and gives_up(situation.message):
         return Answer("All right.")

@@ -351,6 +351,8 @@ class Builder(Doing):
             return self.wait(wish, values)
         if wish.frame == "LOOK" and "K" in values and self._states(wish):
             return self._checked(wish, values)
+        if wish.frame == "LOOK" and {*values} == {"T"} and self._is_room(values["T"]):
+            return self._looked_around(wish, values["T"])
         if wish.frame == "LOOK" and "K" in values and {*"TL"} & {*values}:
             return self._looked_through(values)
         for role in "GH":
@@ -445,6 +447,15 @@ class Builder(Doing):
         opens = said.words[0] in ("if", "whether", "that")
         looked = check(self, said.words[opens:], said.text.partition(" ")[2] if opens else said.text)
         return looked if isinstance(looked, Ask) else [*way, *looked.deeds]
+
+    def _is_room(self, value: Value) -> bool:
+        return bool(value.things) and {*value.things} <= {*self.situation.rooms}
+
+    def _looked_around(self, wish: Wish, room: Value) -> list[Deed] | Ask:
+        """Looking around in a room: at what there is to be seen, for nothing is missing there."""
+        way, what = self.way_to_thing(room), f"what can be seen in {room.said}"
+        made = self._by_action(wish, {"K": Value(what, what)})
+        return made if isinstance(made, Ask) else [*way, *made]
 
     def _looked_through(self, values: dict[str, Value]) -> list[Deed] | Ask:
         """Looking through something for something else: "check the yard for leaks"."""

@@ -289,7 +289,7 @@ class Planner:
                         return Ask(
                             f"I do not see what “not {limit.text}” means. Please say what I should do."
                         )
-                case "until" if wishes and wishes[-1].frame in ("WAIT", "FOLLOW"):
+                case "until" if words and wishes and wishes[-1].frame in ("WAIT", "FOLLOW"):
                     until = Filler("U", 0, len(words), 0, words, 1.0, limit.text)
                     last = replace(wishes[-1], fillers=(*wishes[-1].fillers, until))
                     wishes = (*wishes[:-1], last)

@@ -32,14 +32,20 @@ def steadily(tagger: Tagger, tokens: Sequence[Token], lexicon: Lexicon) -> tuple
         return found, replace(reading, unsteady=())
     more = [_behind(tagger, opener, words) for opener in ("now", "so", "robot")]
     every = [plain, polite, *more]
+    if len({len(scores.act) for scores in every}) > 1:  # longer than the tagger reads
+        return found, replace(reading, unsteady=_differing(said, lexicon))
     said += [_said(_read(tokens, scores, lexicon)[1], lexicon) for scores in more]
     settled, meant = _read(tokens, _mean(every), lexicon)
     most = _said(meant, lexicon)
     if sum(one == most for one in said) >= 4:
         return settled, replace(meant, unsteady=())
-    unsteady = sorted(said[0] ^ said[1])
-    unsure = dict.fromkeys(words for _, words, *_ in unsteady if words not in lexicon.classes["manner"])
-    return found, replace(reading, unsteady=tuple(unsure))
+    return found, replace(reading, unsteady=_differing(said, lexicon))
+
+
+def _differing(said: Sequence[frozenset[tuple[int, str, str]]], lexicon: Lexicon) -> tuple[str, ...]:
+    """What plain words say and polite ones do not."""
+    words = (words for _, words, *_ in sorted(said[0] ^ said[1]))
+    return tuple(dict.fromkeys(word for word in words if word not in lexicon.classes["manner"]))
 
 
 def _read(tokens: Sequence[Token], scores: Scores, lexicon: Lexicon) -> tuple[Parse, Reading]:

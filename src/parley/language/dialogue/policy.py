@@ -295,6 +295,8 @@ def afterwards(
     if isinstance(made, Ask) and (asked := _asked_again(made, situation, reading, tokens)) is not None:
         return asked
     offers = isinstance(made, Ask) and made.offer
+    if isinstance(made, Ask) and not offers and (met := _INTRODUCED.fullmatch(situation.message.strip())):
+        return Answer(f"Hello, {met['name']}. What can I do for you?")
     ordered = any(wish.act == "order" for wish in reading.wishes)  # "thank you, go back"
     if isinstance(made, Ask | Answer) and not (offers or ordered) and _SOCIAL.fullmatch(bare):
         if bare.startswith(("thank", "cheers", "that")):
@@ -310,6 +312,11 @@ def afterwards(
     return made
 
 
+_INTRODUCED: Final = re.compile(
+    r"(?:(?:Hello|Hi|Hey|Good \w+)(?: \w+)?[,.!] *)?(?:I am|I'm|I’m|[Mm]y name is|[Tt]his is) "
+    r"(?P<name>[A-Z][\w'’-]+)(?:,? (?:the|your|from) [\w ]+)?[.!]?"
+)
+"""For "I'm Maria, the new guard"."""
 _AROUND: Final = re.compile(
     r"\b(?:(?P<before>before)|after|(?:done|finished) (?:with|at|in))\b", re.IGNORECASE
 )
