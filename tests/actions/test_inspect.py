@@ -3,19 +3,25 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Awaitable, Callable
 from contextlib import suppress
 from dataclasses import replace
+from typing import cast
 
 import numpy as np
 import pytest
 
+from parley.actions.context import ActionContext
 from parley.actions.inspect import FEED, inspect
+from parley.actions.keep_picture import keep_picture
+from parley.actions.take_picture import take_picture
 from parley.errors import ActionFailure, FailureCode, LanguageError
 from parley.language.base import InspectionReport
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.messages.memory import MemoryEntry
-from parley.robots.base import CameraImage, Detection
+from parley.robots.base import CameraImage, Detection, Robot
 from parley.umrf.action import Outcome
+from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject, ObjectMap
 from tests.actions.room import Room, room
 from tests.memory.photos import opened
@@ -38,6 +44,31 @@ class Eyes:
 
     async def image(self) -> CameraImage:
         return self._image
+
+
+class Faltering(Eyes):
+    """Its base is silent from the picture on."""
+
+    _silent = False
+
+    async def image(self) -> CameraImage:
+        self._silent = True
+        return self._image
+
+    def pose(self) -> Pose2D:
+        if self._silent:
+            raise ActionFailure(FailureCode.HARDWARE, "My base does not answer.")
+        return self._robot.pose()
+
+
+@pytest.mark.parametrize("look", [lambda ctx: inspect(ctx, "the crate"), keep_picture, take_picture])
+async def test_a_base_that_is_silent_for_a_moment_spoils_no_picture(
+    look: Callable[[ActionContext], Awaitable[object]],
+) -> None:
+    async with room() as here:
+        here.script.will("inspect", SEEN)
+        await look(replace(here.context, robot=cast("Robot", Faltering(here))))
+        assert here.person.told
 
 
 async def test_picture_is_shown_with_the_request_and_the_report_is_told_and_given_on() -> None:

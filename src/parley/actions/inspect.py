@@ -52,7 +52,9 @@ async def inspect(ctx: ActionContext, inspect: str) -> Inspection | Outcome:
     Args:
         inspect: What to look for or to look at.
     """
+    # Before the picture: a base that is silent for a moment after it spoils nothing.
     place, known = named_place(inspect, ctx.world.objects, ctx.robot.pose())
+    where = ctx.whereabouts()
     seen = await view(ctx.robot, place)
     image = seen.image
     ctx.display.show(FEED, image, {"request": inspect})
@@ -69,7 +71,7 @@ async def inspect(ctx: ActionContext, inspect: str) -> Inspection | Outcome:
         told_whole = together(report.text, sentence("I cannot see all of it from here."))
         report = replace(report, text=told_whole, found=None if ctx.run.result_asked else report.found)
     ctx.operator.tell(report.text, image)
-    found = await _kept(ctx, report, image)
+    found = await _kept(ctx, report, image, where)
     if place is not None and seen.is_whole:
         await _forget_gone(ctx, place, image)
     if report.rules:
@@ -107,7 +109,7 @@ def _alarm(text: str, report: InspectionReport, found: Sequence[str], **more: An
     return ActionFailure(FailureCode.ATTENTION, text, details)
 
 
-async def _kept(ctx: ActionContext, report: InspectionReport, image: CameraImage) -> list[str]:
+async def _kept(ctx: ActionContext, report: InspectionReport, image: CameraImage, where: str) -> list[str]:
     """Take down what was found: on the map, for all robots to go to, and in the memory, with its picture."""
     names: list[str] = []
     walk_about = {person.name for person in ctx.robot.people()}
@@ -117,10 +119,10 @@ async def _kept(ctx: ActionContext, report: InspectionReport, image: CameraImage
         if stays and thing.x_m is not None and thing.y_m is not None:
             placed = await ctx.world.note(name, Footprint(thing.x_m, thing.y_m, *thing.span_m))
             name = placed.description if placed is not None else name
-        _note_sighting(ctx, name, thing, image)
+        _note_sighting(ctx, name, thing, image, where)
         names.append(name)
     if report.found and report.wanted and not (report.things or report.unwanted):
-        _note_sighting(ctx, report.wanted, None, image)
+        _note_sighting(ctx, report.wanted, None, image, where)
     return names
 
 
@@ -147,10 +149,12 @@ async def _forget_gone(ctx: ActionContext, place: Place, image: CameraImage) -> 
             await ctx.world.forget(item)
 
 
-def _note_sighting(ctx: ActionContext, wanted: str, thing: Detection | None, image: CameraImage) -> None:
+def _note_sighting(
+    ctx: ActionContext, wanted: str, thing: Detection | None, image: CameraImage, where: str
+) -> None:
     """For all robots: what was found, where, how it looks; the newest replaces the rest."""
     name = "_".join(re.findall(r"\w+", wanted.lower()))[:150]
-    sentence = f"I saw the {wanted} from where I stood, {ctx.whereabouts()}."
+    sentence = f"I saw the {wanted} from where I stood, {where}."
     if thing is not None and thing.x_m is not None and thing.y_m is not None:
         sentence = f"I saw the {wanted} at the point ({thing.x_m:.1f}, {thing.y_m:.1f})"
         others = (item for item in ctx.world.objects.objects if item.description != wanted)

@@ -36,8 +36,9 @@ async def keep_picture(ctx: ActionContext, name: str = "") -> None:
     Args:
         name: What the picture is called; one of the same name is replaced.
     """
+    where = ctx.whereabouts()
     image = await ctx.robot.image()
     called = name.strip() or UNNAMED
     ctx.display.show(FEED, image, {"request": called})
-    ctx.remember_picture(called, image, info=f"{called}, {ctx.whereabouts()}")
+    ctx.remember_picture(called, image, info=f"{called}, {where}")
     ctx.operator.tell(f"I keep this picture as “{called}”.", image)
