@@ -68,7 +68,9 @@ class Engine:
     def told(self, state: str) -> None:
         """It says how its graph fares."""
         self.rig.robots.appear(
-            state=state.lower(), graphs={"g": state, "old": "HALTED"}, holds=sorted(self._held)
+            state="idle" if state == "HALTED" else state.lower(),
+            graphs={"g": state, "old": "HALTED"},
+            holds=sorted(self._held),
         )
 
     @property
@@ -134,8 +136,15 @@ async def test_a_plan_that_waits_for_a_person_is_not_gone_on_with_past_who_plans
         await planned(rig)
         engine.told("PAUSED")
         await rig.heard()
-        await post(rig, "command", command="resume")
+        engine.told("HALTED")
+        await rig.heard()
+        await post(rig, "command", command="pause")
         await page.until(lambda: page.of("chat"))
+        assert page.of("chat")[-1]["entry"]["message"].endswith("stands still; all else has to wait.")
+        engine.told("PAUSED")
+        await rig.heard()
+        await post(rig, "command", command="resume")
+        await page.until(lambda: len(page.of("chat")) > 1)
         assert "nothing may have been done" in page.of("chat")[-1]["entry"]["message"]
         assert engine.heard == []
 

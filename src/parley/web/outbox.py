@@ -14,7 +14,7 @@ from parley.errors import StoreError
 from parley.language.stop_words import has_stop_word
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.status import PlanDecision
-from parley.sentences import sentence
+from parley.sentences import Sentence, sentence
 from parley.web.link import Link, Pressed, halts, robots_of
 from parley.web.models import ChatEntry
 from parley.web.pausing import Pauser
@@ -40,6 +40,7 @@ _STANDS: Final = sentence(
     "Planning does not answer, so the robot was told itself, and stands still. It can be told to go on; "
     "all else has to wait."
 )
+_RESTS: Final = sentence("Planning does not answer. The robot stands still; all else has to wait.")
 _GOES_ON: Final = sentence(
     "Planning does not answer, so the robot was told itself to go on with what it was doing; all else has to "
     "wait."
@@ -191,7 +192,7 @@ class Outbox:
             while not (await asyncio.wait({taking}, timeout=HALTED_WITHIN_S))[0]:
                 self._pauser.hold(message, hold)
                 if not told:
-                    self._tell_untaken(message, _STANDS if self._pauser.stand(robots) else _NOT_HALTED)
+                    self._tell_untaken(message, self._how_it_stands(robots))
                 told = True
             await taking
             with contextlib.suppress(TimeoutError):
@@ -203,6 +204,11 @@ class Outbox:
         if press is not None:
             await self._forget(self._store.drop_press(message))
         del self.waiting[hold]
+
+    def _how_it_stands(self, robots: tuple[str, ...]) -> Sentence:
+        if not self._pauser.stand(robots):
+            return _NOT_HALTED
+        return _STANDS if self._pauser.paused(robots) else _RESTS  # what failed meanwhile cannot go on
 
     async def _until_taken(self, press: str, message: Pressed, within_s: float) -> None:
         told = False

@@ -74,6 +74,10 @@ class Pauser:
         views = [view for robot in robots if (view := self._state.robots.views.get(robot)) is not None]
         return bool(views) and all(view.connection == "here" and view.state != "running" for view in views)
 
+    def paused(self, robots: tuple[str, ...]) -> bool:
+        """Whether all that stand could go on with what they did."""
+        return all(self._graphs(robot, GraphState.PAUSED) for robot in robots)
+
     async def until_stand(self, robots: tuple[str, ...]) -> None:
         """Wait until they do."""
         while not self.stand(robots):  # noqa: ASYNC110 - several things say so
