@@ -19,7 +19,8 @@ from parley.cli import command_line
 from parley.clock import SimClock, WallClock
 from parley.config import NetworkSettings
 from parley.errors import ActionFailure, FailureCode, UnavailableError
-from parley.messages.ros_robot import Release
+from parley.messages.actions import ActionWire, GoalState
+from parley.messages.ros_robot import Bool, Release, Twist, navigate_to_pose
 from parley.robots.base import NavigationControl, Velocity
 from parley.robots.check import blocked
 from parley.robots.link import Link
@@ -243,6 +244,23 @@ async def test_a_button_pressed_on_the_robot_ends_the_drive_and_is_told(kind: st
         on.nav2.press(False)
         await until(lambda: not on.robot.trouble() and not on.nav2.robot.stopped)
         assert on.nav2.robot.velocity().linear_mps < 0.02  # what was called off is not taken up again
+
+
+async def test_a_stop_shuts_the_lock_zeroes_the_velocity_and_calls_the_goal_off_on_the_wire() -> None:
+    locks, speeds, goals = list[bool](), list[float](), list[int]()
+    action = ActionWire(navigate_to_pose(TOPICS.name("navigate_to_pose"), "jazzy"))
+    async with stage("rosbridge") as on, RosbridgeTransport(f"ws://127.0.0.1:{on.cable.port}") as watch:
+        await watch.subscribe(TOPICS.topic(TOPICS.hold, Bool), lambda told: locks.append(told.data))
+        await watch.subscribe(TOPICS.topic(TOPICS.cmd_vel, Twist), lambda told: speeds.append(told.linear.x))
+        await watch.subscribe(action.status, lambda told: goals.extend(g.status for g in told.status_list))
+        drive = asyncio.create_task(on.robot.navigate(ahead(on.robot, 2.0), NOT_PAUSED, timeout_s=20))
+        await until(lambda: on.nav2.robot.velocity().linear_mps > 0.1 and locks[-1:] == [False])
+        on.robot.halt()
+        await until(lambda: locks[-1] and speeds[-1:] == [0.0] and goals[-1:] == [GoalState.CANCELED])
+        await until(lambda: on.nav2.robot.velocity().linear_mps < 0.02)
+        assert not drive.done()  # a person may let it go on
+        drive.cancel()
+        await asyncio.gather(drive, return_exceptions=True)
 
 
 @pytest.mark.parametrize("kind", ["zenoh", "rosbridge"])
