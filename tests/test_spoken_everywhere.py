@@ -7,6 +7,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+import pytest
+
 import parley
 from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.config import SystemConfig
@@ -115,6 +117,13 @@ def test_what_actions_say_of_themselves_has_a_form_in_every_language() -> None:
         (text, other) for text in told for other in others if ENGLISH.search(in_language(text, other))
     ] == []
     assert [(text, other) for text in told for other in others if in_language(text, other) == text] == []
+
+
+@pytest.mark.parametrize("demo", ["nursing-home", "parking", "warehouse", "fleet"])
+def test_what_a_demonstration_offers_to_say_is_shown_in_every_language(demo: str) -> None:
+    examples, others = load_demo(demo).story.examples, [one for one in LANGUAGES if one != "en"]
+    assert examples
+    assert [(text, other) for text in examples for other in others if in_language(text, other) == text] == []
 
 
 async def test_what_robots_say_in_a_demonstration_has_no_english_left_in_it_but_what_people_said() -> None:

@@ -159,7 +159,7 @@ def _doubted(answer: ChatAction) -> str:
     if not words:
         return ""
     if answer.called:
-        return sentence("No robot here is called {words}", words=one_line(answer.called)[:80])
+        return sentence("No robot here is called “{words}”", words=one_line(answer.called)[:80])
     if words == UNSURE_OF_ALL:
         return sentence("I am not sure that I understood you")
     return sentence("I did not understand “{words}”", words=one_line(words)[:80])

@@ -12,7 +12,7 @@ from tests.language.builtin.worlds import situation
 
 ENGINE = BuiltinLanguage()
 KIM = person("Kim")
-NOBODY = "No robot here is called Ruth. Shall I do it?"
+NOBODY = "No robot here is called “Ruth”. Shall I do it?"
 
 
 @pytest.mark.parametrize("robots", [("Ada",), ("Ada", "Bo")])
@@ -74,7 +74,7 @@ def test_a_slip_in_the_name_of_who_hears_it_is_asked_about_and_that_of_another_n
 @pytest.mark.parametrize(
     ("said", "why"),
     [
-        ("Ruth, go to the office", "No robot here is called Ruth"),
+        ("Ruth, go to the office", "No robot here is called “Ruth”"),
         ("all right, go to the yard", "I did not understand"),
     ],
 )

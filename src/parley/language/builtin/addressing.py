@@ -113,8 +113,8 @@ def for_nobody(
     plain = again(rest)
     offer = plain.deeds if isinstance(plain, Do) else plain.offer if isinstance(plain, Ask) else ()
     if not offer:
-        return Ask(f"No robot here is called {called}. Please say it again without that name.")
-    question = f"Do you mean {near}?" if near else f"No robot here is called {called}. Shall I do it?"
+        return Ask(f"No robot here is called “{called}”. Please say it again without that name.")
+    question = f"Do you mean {near}?" if near else f"No robot here is called “{called}”. Shall I do it?"
     return Ask(question, offer=offer, unclear=called, called=called)
 
 
