@@ -19,7 +19,7 @@ from parley.agents.calls.calls import Calls
 from parley.config import CallSettings, EmailSettings, SystemConfig
 from parley.errors import ConfigError
 from parley.messages import topics
-from parley.messages.chat import ChatInput
+from parley.messages.chat import ChatFeedback, ChatInput
 from parley.messages.status import PlanProposal, PlanUpdate
 from parley.transport.local import LocalTransport
 from tests.web.rig import HandClock, Robots
@@ -127,6 +127,23 @@ async def test_who_waits_long_calls_somebody_and_then_somebody_else_until_it_is_
             await here.after(300)
             assert [(await come(queue))["robot"] for queue in (first, second)] == ["Bob", "Bob"]
             assert first.empty() and second.empty()
+
+
+async def test_who_asks_which_of_several_things_an_order_means_waits_too() -> None:
+    got = Queue[dict[str, Any]]()
+    which = ChatFeedback(message="Which box?", targets=("Ada",), choices=("red", "blue"), reply_to="m1")
+    with web_hook(got) as address:
+        async with ward(CallSettings(after_s=60, webhook=address)) as here:
+            here.robots.tell(topics.CHAT_FEEDBACK, which)
+            await here.after(60)
+            assert (await come(got))["text"] == "Ada asks: Which box? Waiting for 1 min."
+            here.robots.tell(topics.CHAT_FEEDBACK, which.model_copy(update={"reply_to": "m2"}))
+            here.robots.tell(topics.CHAT_INPUT, ChatInput(message="the red one", targets=("Ada",)))
+            await here.after(60)
+            here.robots.tell(topics.CHAT_FEEDBACK, which.model_copy(update={"reply_to": "m3"}))
+            here.robots.tell(topics.CHAT_FEEDBACK, ChatFeedback(message="I will look.", targets=("Ada",)))
+            await here.after(60)
+            assert got.empty()
 
 
 async def test_a_plan_that_waits_for_a_yes_is_mailed_once() -> None:

@@ -58,9 +58,8 @@ class Calls(Node):
         """See `Node.open`."""
         if not self._senders:
             return
-        questions = self._waits.questions
-        await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, questions.on_feedback)
-        await self.subscribe(topics.CHAT_INPUT, ChatInput, questions.on_input)
+        await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._waits.on_feedback)
+        await self.subscribe(topics.CHAT_INPUT, ChatInput, self._waits.on_input)
         await self.subscribe_plans(self._waits.on_plan)
         self.spawn(self._watch(), name="watch")
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from parley.agents.questions import OpenQuestions
 from parley.latest import Latest
+from parley.messages.chat import ChatFeedback, ChatInput
 from parley.messages.status import PlanProposal, PlanUpdate
 from parley.sentences import Sentence, listed, sentence
 
@@ -33,9 +34,25 @@ class Waits:
     def __init__(self, after_s: Sequence[float]) -> None:
         self.questions = OpenQuestions()
         self._after_s = after_s
+        self._which: Latest[str, ChatFeedback] = Latest()
+        """Replies that ask which of several things is meant, until the robot says or hears something else."""
         self._proposals: Latest[str, list[PlanProposal]] = Latest()
         self._since: dict[str, float] = {}
         self._called: set[tuple[str, int]] = set()
+
+    def on_feedback(self, feedback: ChatFeedback) -> None:
+        """A robot asks, or asks no more."""
+        self.questions.on_feedback(feedback)
+        for robot in feedback.targets if feedback.type == "response" else ():
+            self._which.pop(robot, None)
+            if feedback.choices:
+                self._which[robot] = feedback
+
+    def on_input(self, said: ChatInput) -> None:
+        """Somebody is there."""
+        self.questions.on_input(said)
+        for robot in said.targets:
+            self._which.pop(robot, None)
 
     def on_plan(self, told: PlanUpdate | PlanProposal) -> None:
         """A plan waits for a yes, or does not any more."""
@@ -62,12 +79,14 @@ class Waits:
     def _waiting(self) -> Iterable[tuple[str, str, Sentence]]:
         for robot in self.questions.robots():
             if (asked := self.questions.newest(robot)) is not None:
-                yield (
-                    f"{robot} {asked.id}",
-                    robot,
-                    sentence("{robot} asks: {what}", robot=robot, what=asked.message),
-                )
+                yield f"{robot} {asked.id}", robot, _asks(robot, asked)
+        for robot, asked in self._which.items():
+            yield f"{robot} {asked.id} {asked.reply_to}", robot, _asks(robot, asked)
         for robot, proposals in self._proposals.items():
             for one in proposals:
                 what = listed(one.lines)
                 yield one.id, robot, sentence("{robot} waits for a yes: {what}", robot=robot, what=what)
+
+
+def _asks(robot: str, asked: ChatFeedback) -> Sentence:
+    return sentence("{robot} asks: {what}", robot=robot, what=asked.message)
