@@ -1,5 +1,8 @@
 import { afterEach, expect, it, vi } from 'vitest';
 
+import { robot, snapshot } from '@/live/samples';
+import { useLive } from '@/live/store';
+
 import { useStopping } from './stopping';
 
 const leaving = () => window.dispatchEvent(new Event('beforeunload', { cancelable: true }));
@@ -36,4 +39,16 @@ it('what became of a stop is not told any more once it was released, however lat
   answers[1]?.();
   await second;
   expect(useStopping.getState().answer?.robots).toEqual({ Ada: 'stands' });
+});
+
+it('what became of a stop is not told any more once somebody else released it', async () => {
+  const answer = (id: string) => new Response(JSON.stringify({ ok: true, kept: true, id, robots: { Ada: 'moves', Bob: 'stands' } }));
+  vi.stubGlobal('fetch', (_path: string, options: RequestInit) => Promise.resolve(answer((JSON.parse(String(options.body)) as { id: string }).id)));
+  const fare = (state: 'stopped' | 'idle', name: string) => robot({ name, state });
+  const show = (...robots: ReturnType<typeof robot>[]) => useLive.getState().takeSnapshot(snapshot({ robots }));
+  show(fare('idle', 'Ada'), fare('idle', 'Bob'));
+  await useStopping.getState().stop([]);
+  show(fare('stopped', 'Ada'), fare('stopped', 'Bob'));
+  show(fare('idle', 'Ada'), fare('stopped', 'Bob'));
+  expect(useStopping.getState().answer?.robots).toEqual({ Bob: 'stands' });
 });

@@ -56,12 +56,26 @@ export const useStopping = create<Stopping>()((set, get) => {
   const pressed = new Set<string>();
   /** Stops that were released since: what of them is heard later is not so any more. */
   const over = new Set<string>();
+  const without = ({ id, robots, ...rest }: StopAnswer): StopAnswer => ({
+    ...rest,
+    id,
+    robots: Object.fromEntries(Object.entries(robots).filter(([name]) => !over.has(`${id} ${name}`))),
+  });
   const take = (answer: StopAnswer) => {
     if (over.has(answer.id)) return;
-    set({ answer, pending: get().pending?.id === answer.id ? null : get().pending });
+    set({ answer: without(answer), pending: get().pending?.id === answer.id ? null : get().pending });
     clearTimeout(forget);
     forget = setTimeout(() => set({ answer: null }), TOLD_MS);
   };
+  // Somebody else may release a robot while the answer still stands: the live stream tells.
+  useLive.subscribe(({ world }, before) => {
+    const { answer } = get();
+    const isReleased = (name: string) => isHeld(before.world.robots[name]) && world.robots[name] && !isHeld(world.robots[name]);
+    const released = Object.keys(answer?.robots ?? {}).filter(isReleased);
+    if (!answer || released.length === 0) return;
+    released.forEach((name) => over.add(`${answer.id} ${name}`));
+    set({ answer: without(answer) });
+  });
   hearStopLine(take, () => {
     const { pending } = get();
     if (pending && waits(pending.id)) stopOnLine(pending.targets, pending.id);
@@ -103,6 +117,8 @@ window.addEventListener('beforeunload', (event) => {
   if (useStopping.getState().pending) event.preventDefault();
 });
 
+const isHeld = (robot: RobotView | undefined) => robot !== undefined && (robot.stop.state !== 'none' || robot.state === 'stopped');
+
 const isAgain = (before: Press | null, targets: readonly string[], now: number) =>
   before !== null &&
   now - before.sinceMs < DOUBLE_MS &&
@@ -132,7 +148,7 @@ export function stoppedRobots(
 ): StoppedRobot[] {
   const names = new Set([
     ...Object.values(robots)
-      .filter((robot) => robot.stop.state !== 'none' || robot.state === 'stopped')
+      .filter(isHeld)
       .map((robot) => robot.name),
     ...Object.keys(answer?.robots ?? {}),
   ]);
