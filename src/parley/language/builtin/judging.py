@@ -93,7 +93,8 @@ def _placed(words: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
 
 def _bare(words: Sequence[str]) -> tuple[str, ...]:
     small = lexicon().classes["determiners"] | {"any", "no", "some"}
-    return tuple(word for word in words if word not in small)
+    last = len(words) - 1  # "component A"
+    return tuple(word for at, word in enumerate(words) if word not in small or (at and at == last))
 
 
 def _is_unwanted(words: Sequence[str], *, sought: bool = False) -> bool:
