@@ -28,6 +28,7 @@ async def test_a_new_thing_is_on_the_map_where_it_was_seen_and_stays_there_after
 async def test_a_known_thing_that_is_seen_elsewhere_was_moved_and_one_in_its_place_was_not() -> None:
     found = FoundThings()
     assert await found.note("barrow", Footprint(4.9, 0.1, 0.2, 0.2), KNOWN) == KNOWN.objects[1]
+    assert await found.note("bay 1", Footprint(0.02, 0.0, 2.0, 2.0), KNOWN) == KNOWN.objects[0]  # all of it
     await found.note("Barrow", Footprint(6.0, 0.5, 0.9, 0.5), KNOWN)
     (barrow,) = (item for item in found.added_to(KNOWN).objects if item.description == "barrow")
     assert (barrow.id, barrow.x_m, barrow.y_m) == ("barrow", 6.0, 0.5)

@@ -24,6 +24,8 @@ log = structlog.get_logger(__name__)
 
 _MOVED_M: Final = 3.0
 """Something of the same name that is seen no farther away was moved; else it is another one."""
+_SEEN_M: Final = 0.1
+"""So much beside its place on the map something may be seen that was not moved."""
 _SMALLEST_M: Final = 0.1
 
 
@@ -75,7 +77,7 @@ class FoundThings:
         now = self.added_to(known)
         alike = [item for item in now.objects if label.lower() in (item.description.lower(), *item.aliases)]
         old = min(alike, key=lambda item: _apart_m(item, place), default=None)
-        if old is not None and standing(place, old) == "in":
+        if old is not None and (standing(place, old) == "in" or _is_there(place, old)):
             return old
         if old is not None and _apart_m(old, place) <= _MOVED_M:
             found = _at(old, place)
@@ -100,6 +102,15 @@ def _at_home(item: MapObject | None) -> list[float] | None:
 
 def _apart_m(item: MapObject, place: Footprint) -> float:
     return float(((item.x_m - place.x_m) ** 2 + (item.y_m - place.y_m) ** 2) ** 0.5)
+
+
+def _is_there(place: Footprint, item: MapObject) -> bool:
+    """Whether all that was seen of something lies where the map has it."""
+    sides = (
+        (abs(place.x_m - item.x_m), place.width_m, item.width_m),
+        (abs(place.y_m - item.y_m), place.height_m, item.height_m),
+    )
+    return all(away + own / 2 <= half / 2 + _SEEN_M for away, own, half in sides)
 
 
 def _at(item: MapObject, place: Footprint) -> MapObject:
