@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import uuid
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -59,6 +59,7 @@ class Missions:
         presence: Who is there.
         board: Where it is followed what becomes of them.
         engine: What the language engine is called.
+        hear: Has a robot hear words in its own conversation.
     """
 
     def __init__(
@@ -70,7 +71,9 @@ class Missions:
         presence: Presence,
         board: MissionBoard,
         engine: str,
+        hear: Callable[[str, ChatInput], None],
     ) -> None:
+        self._hear = hear
         self._node, self._talk, self._answering, self._board = node, talk, answering, board
         self._known, self._presence, self._engine = known, presence, engine
         self._mates: Latest[str, frozenset[str]] = Latest()
@@ -111,7 +114,7 @@ class Missions:
         except LanguageError as error:
             self._node.log.warning("no part offered", robot=robot, error=repr(error))
             return
-        if found is None:
+        if found is None or not self._talk.left(robot):
             return
         other, reason = found
         words = str(sentence("Let {other} take over from {robot}", other=other, robot=robot))
@@ -151,7 +154,10 @@ class Missions:
             return True
         if mission is None:
             return False
-        if mission.shares:
+        if mission.itself is not None:
+            robot, words = mission.itself
+            self._hear(robot, said.model_copy(update={"message": words, "targets": (robot,)}))
+        elif mission.shares:
             await self._carry_out(target, said, mission, halts)
         else:
             self._say((target,), mission.text, said, mission.choices)

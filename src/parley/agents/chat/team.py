@@ -36,6 +36,7 @@ __all__ = ["Mission", "Share", "TeamTalk"]
 
 TELL_EACH: Final = sentence("I cannot tell what of that can be done apart. Please tell each of us its part.")
 IN_FULL: Final = sentence("I do not know what you mean by that. Please say it in full.")
+CHANGES: Final = "{robot} gets no part: it would change what it is at. Please tell it by itself."
 MOST_TASKS: Final = 40
 """More places than this are not shared in one order."""
 
@@ -65,6 +66,8 @@ class Mission:
     """By robot: its proposal in whose place this comes."""
     relieved: tuple[str, ...] = ()
     """Robots whose plans are given up, as others take them over."""
+    itself: tuple[str, str] | None = None
+    """A robot, and words that only it can follow, as they change what it is at."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -405,6 +408,9 @@ class _Work:
             answer = next(iter(read.values()))[1]
             if self._plain or answer.alarm:
                 return Mission()
+            if answer.system_cmd:  # what it says it would do is not done here
+                alone = len(own) == len(wish.parts) == 1
+                return Mission(text=TELL_EACH, itself=(next(iter(own)), words) if alone else None)
             return Mission(text=answer.message_response, choices=answer.choices)
         first = next(iter(able.values()))
         splits = alike(first.tasks) and not is_in_turn(words)
@@ -430,10 +436,13 @@ class _Work:
             elif name in able:
                 self._shares.append(Share(name, able[name].calls, needs_yes=able[name].needs_yes))
             else:
-                said = read[name][1].message_response
-                self._notes.append(
-                    sentence("{robot} gets no part. It says: “{answer}”", robot=name, answer=said)
+                said = read[name][1]
+                note = sentence(
+                    "{robot} gets no part. It says: “{answer}”", robot=name, answer=said.message_response
                 )
+                if said.system_cmd:
+                    note = sentence(CHANGES, robot=name)
+                self._notes.append(note)
         return None
 
     async def _allot(
