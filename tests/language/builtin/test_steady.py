@@ -29,7 +29,8 @@ def test_a_steady_order_is_not_doubted_and_an_unsteady_one_is_asked_about_by_its
 
 
 def test_what_one_opener_alone_reads_otherwise_is_settled_by_most_of_them() -> None:
-    for text in ["peek into the cellar and report", "take the letter on the table down to Lena"]:
+    lists = ["check Area A, Area B and Area C"]
+    for text in [*lists, "peek into the cellar and report", "take the letter on the table down to Lena"]:
         assert reading(text).unsteady == (), text
 
 

@@ -41,6 +41,7 @@ def read(parse: Parse, lexicon: Lexicon) -> Reading:
     wishes: list[Wish] = []
     parse = replace(parse, spans=tuple(_listed_on(parse, span) for span in parse.spans))
     spans = [part for span in _ordered_alone(parse, _merged(parse)) for part in _by_way(parse, span, lexicon)]
+    spans = [part for span in spans for part in _one_by_one(parse, span, lexicon)]
     fillers = [_filler(parse, span, lexicon) for span in spans]
     for number, verb in enumerate(parse.verbs):
         mine = [filler for filler, span in zip(fillers, spans, strict=True) if span.owner == number]
@@ -157,6 +158,20 @@ def _listed_on(parse: Parse, span: Span) -> Span:
     if span.role not in "TGL" or row not in (["A", "and", "A"], ["1", "and", "1"]) or not free:
         return span
     return replace(span, end=span.end + 2)
+
+
+def _one_by_one(parse: Parse, span: Span, lexicon: Lexicon) -> list[Span]:
+    """Each of a list with commas of things that are called alike: "bay A, bay B"."""
+    small, tokens = lexicon.classes["determiners"], parse.tokens
+    begins = [at for at in range(span.start, span.end) if tokens[at].low not in small]
+    alike = {at for at in begins if tokens[at].low == tokens[begins[0]].low}
+    cuts = [at for at in range(span.start + 1, span.end - 1) if tokens[at].low == ","]
+    cuts = [at for at in cuts if next((n for n in begins if n > at), -1) in alike]
+    edges = [span.start, *cuts, span.end] if span.role in "TG" else []
+    parts = [(start + (start in cuts), end) for start, end in pairwise(edges)]
+    return [
+        replace(span, start=a, end=b, head=span.head if a <= span.head < b else b - 1) for a, b in parts
+    ] or [span]
 
 
 def _mark(text: str) -> str:

@@ -27,19 +27,27 @@ def steadily(tagger: Tagger, tokens: Sequence[Token], lexicon: Lexicon) -> tuple
     plain = tagger.tag(words)
     found, reading = _read(tokens, plain, lexicon)
     polite = _behind(tagger, "okay" if words[0].lower() == "please" else "please", words)
-    said = [_said(reading, lexicon), _said(_read(tokens, polite, lexicon)[1], lexicon)]
+    readings = [reading, _read(tokens, polite, lexicon)[1]]
+    said = [_said(one, lexicon) for one in readings]
     if said[0] == said[1]:
         return found, replace(reading, unsteady=())
     more = [_behind(tagger, opener, words) for opener in ("now", "so", "robot")]
     every = [plain, polite, *more]
     if len({len(scores.act) for scores in every}) > 1:  # longer than the tagger reads
         return found, replace(reading, unsteady=_differing(said, lexicon))
-    said += [_said(_read(tokens, scores, lexicon)[1], lexicon) for scores in more]
+    readings += [_read(tokens, scores, lexicon)[1] for scores in more]
+    said += [_said(one, lexicon) for one in readings[len(said) :]]
     settled, meant = _read(tokens, _mean(every), lexicon)
     most = _said(meant, lexicon)
-    if sum(one == most for one in said) >= 4:
+    same = sum(one == most for one in said)
+    missed = sum(one < most and bool(reads.left_over) for one, reads in zip(said, readings, strict=True))
+    if same > len(said) // 2 and same + missed >= _AGREEING:
         return settled, replace(meant, unsteady=())
     return found, replace(reading, unsteady=_differing(said, lexicon))
+
+
+_AGREEING = 4
+"""So many of the readings say the same, or miss a part of it and know that words are left over."""
 
 
 def _differing(said: Sequence[frozenset[tuple[int, str, str]]], lexicon: Lexicon) -> tuple[str, ...]:
