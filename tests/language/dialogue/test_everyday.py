@@ -148,3 +148,10 @@ def test_who_says_who_they_are_is_greeted() -> None:
 def test_whether_something_is_in_a_room_is_offered_to_be_looked_at() -> None:
     made = ENGINE.decide(at("is there anything on the floor in the paint shop"))
     assert isinstance(made, Ask) and [deed.frame for deed in made.offer] == ["GO", "LOOK"]
+
+
+def test_what_is_looked_for_where_it_was_sent_needs_no_second_place() -> None:
+    looks = tuple(info for info in ABLE if info.name in ("drive_to", "look"))
+    made = ENGINE.decide(replace(at("go to the gate and look for boxes, then tell me"), catalogue=looks))
+    assert isinstance(made, Do)
+    assert [[*deed.arguments.values()] for deed in made.deeds] == [["gate"], ["boxes"]]

@@ -92,7 +92,8 @@ def _decided(
     made = _alone(situation, parts, skills, lexicon, reader)
     if isinstance(made, Answer) and not made.sources and "question" in whole.acts and not situation.question:
         made = _looking(situation, tokens, skills, lexicon, again) or made
-    if isinstance(made, Ask) and not (made.choices or made.alarms or made.where or situation.question):
+    open_ask = isinstance(made, Ask) and not (made.choices or made.alarms or made.where)
+    if open_ask and not situation.question and "told" not in whole.acts:
         made = _sight(situation, tokens, skills, lexicon) or made
     if isinstance(made, Ask) and (promise := policy.promised(situation, lexicon, again)) is not None:
         return promise

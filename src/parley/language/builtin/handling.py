@@ -84,7 +84,7 @@ class Handling(Ways):
             way = self.nearing(values.get("L") or values["S"])
         elif thing.place is not None or thing.things:
             way = self.nearing(thing)
-        elif self.sought != (self.at, thing.argument):
+        elif not self.at and self.sought != (self.at, thing.argument):
             return Ask(f"I do not know where {thing.said} is. Where shall I look?")
         if isinstance(way, Ask) or self.sought == (self.at, thing.argument):
             return way

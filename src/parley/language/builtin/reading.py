@@ -217,7 +217,7 @@ def _without_openers(wishes: list[Wish], parse: Parse) -> list[Wish]:
         bare = not wish.fillers and not wish.negated and opens
         between = parse.tokens[wish.start : behind.start] if behind is not None else ()
         apart = any(token.low in ("then", ",", ".") for token in between)
-        reports = kept and kept[-1].frame == wish.frame == "LOOK"
+        reports = kept and wish.frame == "LOOK" and kept[-1].frame in ("LOOK", "FIND", "COUNT")
         if reports and looks_here(kept[-1]):
             kept[-1] = wish  # "look around and tell me what is on the desk"
             continue
