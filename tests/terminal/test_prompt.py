@@ -14,9 +14,10 @@ import termios
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
-from typing import TextIO
+from typing import Any, TextIO
 
 import pytest
+from prompt_toolkit.data_structures import Size
 from prompt_toolkit.input.vt100 import Vt100Input
 from prompt_toolkit.output.vt100 import Vt100_Output
 
@@ -29,7 +30,21 @@ from tests.terminal.robots import PlayedRobots, plan, step, until
 from tests.terminal.screen import Screen
 
 CTRL_C, CTRL_D, ESCAPE, UP = "\x03", "\x04", "\x1b", "\x1b[A"
-ROWS, COLUMNS = 40, 120
+SIZE = Size(rows=40, columns=120)
+
+
+class WatchedOutput(Vt100_Output):
+    """Writes to the terminal, and notes whether it would echo a key typed at that moment."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self.echoing: dict[str, bool] = {}
+
+    def write_raw(self, data: str) -> None:
+        with contextlib.suppress(termios.error):  # the terminal is gone
+            local_modes = termios.tcgetattr(self.fileno())[3]
+            self.echoing[data] = bool(local_modes & termios.ECHO)
+        super().write_raw(data)
 
 
 @dataclass
@@ -39,7 +54,8 @@ class Terminal:
     robots: PlayedRobots
     task: asyncio.Task[bool]
     fd: int
-    screen: Screen = field(default_factory=lambda: Screen(COLUMNS))
+    output: WatchedOutput
+    screen: Screen = field(default_factory=lambda: Screen(SIZE.columns))
 
     def __post_init__(self) -> None:
         self._decoder = codecs.getincrementaldecoder("utf-8")()
@@ -71,11 +87,11 @@ class Terminal:
 async def opened() -> AsyncIterator[Terminal]:
     loop = asyncio.get_running_loop()
     far, near = pty.openpty()
-    fcntl.ioctl(near, termios.TIOCSWINSZ, struct.pack("HHHH", ROWS, COLUMNS, 0, 0))
+    fcntl.ioctl(near, termios.TIOCSWINSZ, struct.pack("HHHH", *SIZE, 0, 0))
     sink = os.fdopen(near, "w")
     with os.fdopen(near, "r", closefd=False) as source, contextlib.ExitStack() as stack:
         stack.callback(close, sink)
-        keyboard, screen = Vt100Input(source), Vt100_Output.from_pty(sink, term="xterm-256color")
+        keyboard, screen = Vt100Input(source), WatchedOutput(sink, lambda: SIZE, term="xterm-256color")
         async with LocalTransport() as transport:
             robots = PlayedRobots(transport)
             await robots.listen()
@@ -84,7 +100,7 @@ async def opened() -> AsyncIterator[Terminal]:
                 lang="en",
                 console=lambda events: PromptConsole(events, keyboard=keyboard, screen=screen),
             )
-            terminal = Terminal(robots, asyncio.create_task(client.run()), far)
+            terminal = Terminal(robots, asyncio.create_task(client.run()), far, screen)
             loop.add_reader(far, terminal.receive)
             try:
                 await terminal.shows("Ctrl-D")
@@ -218,6 +234,17 @@ async def test_what_robots_say_stands_above_the_prompt_and_the_live_plan_below()
             " ? ask       waiting for you",
             " ○ go there  to do",
         ]
+        terminal.press(CTRL_C + CTRL_C)
+
+
+async def test_keys_typed_while_a_robot_talks_are_not_echoed_into_its_words() -> None:
+    async with opened() as terminal:
+        terminal.press("go to")
+        await terminal.shows("You → Ada: go to")
+        terminal.robots.say("The box is blue.")
+        await terminal.shows("Ada: The box is blue.")
+        echoing = [on for written, on in terminal.output.echoing.items() if "The box is blue." in written]
+        assert echoing == [False]
         terminal.press(CTRL_C + CTRL_C)
 
 

@@ -67,6 +67,9 @@ class PromptConsole:
             style=_STYLE,
             refresh_interval=_REFRESH_S,
         )
+        # Lines are written above the prompt with the terminal as it is: given back to its line editing, as
+        # prompt_toolkit does for programs that read for themselves, it would echo what is typed meanwhile.
+        self._session.app.input.cooked_mode = contextlib.nullcontext  # type: ignore[method-assign]
         return self
 
     async def __aexit__(self, *exc: object) -> None:
