@@ -48,11 +48,10 @@ from parley.umrf.action import RunHandle
 from parley.umrf.catalogue import Catalogue, info_of
 from parley.umrf.check import reasons
 from parley.umrf.executor import STOP_TIMEOUT_S, GraphRun
-from parley.umrf.io import read_known, read_loaded, write_descriptor, write_graph
+from parley.umrf.io import open_graph, read_loaded, write_descriptor, write_graph
 from parley.umrf.model import NOTHING, Graph, Result
 from parley.umrf.motion import Motions
 from parley.umrf.node_run import NodeRun
-from parley.umrf.reading import load_object
 from parley.umrf.transition import Transition
 
 __all__ = ["ActionEngine"]
@@ -72,7 +71,6 @@ Admit = Callable[[ActionInfo, Mapping[str, Any]], None]
 
 C = TypeVar("C")
 P = TypeVar("P", bound=BaseModel)
-Raw = Mapping[str, Any]
 
 SOURCE = "action_engine"
 COMMAND_DEPTH = 1000
@@ -321,19 +319,19 @@ class ActionEngine(OpenedTogether):
 
             self._inbox.put(name, work, light=True)
 
-    def _heavy_command(self, what: str, message: M, text: str, command: Callable[[M, Raw], None]) -> None:
-        """As `_command`, for one that brings a graph, which may be large."""
+    def _heavy_command(
+        self, what: str, message: M, text: str, command: Callable[[M, Callable[[], Graph] | None], None]
+    ) -> None:
+        """As `_command`, for one that brings a graph, which may be large: `command` gets what reads it."""
         if self._names.isdisjoint(message.targets):
             return
         try:
-            raw: Raw = load_object(text, "graph") if text else {}
+            name, read = open_graph(text) if text else ("", None)
         except GraphRefusedError as error:
             self._reject(what, message.umrf_graph_name, error.problems)
             return
-        name = str(raw.get("graph_name") or message.umrf_graph_name)
-        self._inbox.put(
-            name, lambda: self._told(what, message.umrf_graph_name, lambda: command(message, raw))
-        )
+        told = message.umrf_graph_name
+        self._inbox.put(name or told, lambda: self._told(what, told, lambda: command(message, read)))
 
     def _told(self, what: str, name: str, command: Callable[[], None]) -> None:
         """Carry out `command`, and say so if it is refused."""
@@ -378,17 +376,17 @@ class ActionEngine(OpenedTogether):
             self._feedback.changed(run)
         self.changed()
 
-    def _start(self, message: ros.UmrfGraphStart, raw: Raw) -> None:
-        if not message.umrf_graph_json:
+    def _start(self, message: ros.UmrfGraphStart, read: Callable[[], Graph] | None) -> None:
+        if read is None:
             self.start(message.umrf_graph_name)
             return
         text, journal = message.umrf_graph_json, self._journal
-        graph = read_known(raw, text)
+        graph = read()
         with journal.read_from(graph.name, text) if journal else nullcontext():
             self.start(graph)
 
-    def _modify(self, message: ros.UmrfGraphModify, raw: Raw) -> None:
-        graph = read_loaded(raw)
+    def _modify(self, message: ros.UmrfGraphModify, read: Callable[[], Graph] | None) -> None:
+        graph = read_loaded({}) if read is None else read()
         self._together.modify(graph, message.modified_graph, message.continue_from, message.targets)
 
     def _payload(

@@ -16,8 +16,9 @@ log = structlog.get_logger(__name__)
 Work = Callable[[], None]
 """Carries out one command."""
 
-TURN_S: Final = 0.002
-"""Wall time in a turn of the loop after which no more is begun in it."""
+TURN_S: Final = 0.0005
+"""Wall time in a turn of the loop after which no more is begun in it; graphs that were started in one turn
+stay together in the loop, and wait for each other at each step."""
 
 
 class Inbox:

@@ -8,7 +8,8 @@ use the `faithful` one, which reads back to the same graph.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from json.encoder import encode_basestring
 from operator import attrgetter
@@ -35,9 +36,9 @@ __all__ = [
     "UnreadableGraphError",
     "dump",
     "graph_to_json",
+    "open_graph",
     "read_descriptor",
     "read_graph",
-    "read_known",
     "read_loaded",
     "write_descriptor",
     "write_graph",
@@ -49,7 +50,7 @@ KEPT_GRAPHS: Final = 64
 KEPT_CHARS: Final = 50_000
 _read: Final[dict[str, Graph]] = {}
 """Their texts without the names -> one of them."""
-_NAME: Final = '"graph_name"'
+_NAMED: Final = re.compile(r'"graph_name"\s*:\s*"([^"\\\x00-\x1f\ud800-\udfff]+)"')
 
 
 class UnreadableGraphError(GraphRefusedError):
@@ -87,29 +88,34 @@ def read_loaded(raw: Mapping[str, Any]) -> Graph:
     return graph
 
 
-def read_known(raw: Mapping[str, Any], text: str) -> Graph:
-    """As `read_loaded`, but what a graph of any name had before, word for word, is not read once more.
+def open_graph(text: str) -> tuple[str, Callable[[], Graph]]:
+    """The name of a graph, and what reads the rest.
+
+    Nothing is read once more of a text that differs from an earlier one only in the name.
 
     Args:
-        raw: What `load_object` gave for `text`.
         text: A long one is not kept, nor one with escapes, in which the name is not found by its letters.
 
     Raises:
-        UnreadableGraphError: With every problem and where it is.
+        GraphRefusedError: It is no JSON object. Reading the rest raises `UnreadableGraphError`.
     """
-    name = raw.get("graph_name")
-    alone = "\\" not in text and text.count(_NAME) == 1
-    if len(text) > KEPT_CHARS or not alone or not isinstance(name, str) or not name:
-        return read_loaded(raw)
-    begin = text.index(name, text.index(_NAME) + len(_NAME))
-    content = text[:begin] + text[begin + len(name) :]
+    named = list(_NAMED.finditer(text)) if len(text) <= KEPT_CHARS and "\\" not in text else []
+    content = text[: named[0].start(1)] + text[named[0].end(1) :] if len(named) == 1 else ""
     known = _read.get(content)
     if known is not None:
-        return replace(known, name=name)
-    if len(_read) == KEPT_GRAPHS:
-        _read.clear()
-    _read[content] = graph = read_loaded(raw)
-    return graph
+        name = named[0][1]
+        return name, lambda: replace(known, name=name)
+    raw = load_object(text, "graph")
+
+    def read() -> Graph:
+        graph = read_loaded(raw)
+        if content and graph.name == named[0][1]:
+            if len(_read) == KEPT_GRAPHS:
+                _read.clear()
+            _read[content] = graph
+        return graph
+
+    return str(raw.get("graph_name") or ""), read
 
 
 def read_descriptor(source: str | Mapping[str, Any]) -> ActionSpec:
