@@ -88,9 +88,9 @@ sbom: $(VENV)/.dev frontend/node_modules/.installed ## Lists of what is inside (
 	@$(BIN)/cyclonedx-py requirements requirements.lock --pyproject pyproject.toml -o build/sbom-python.cdx.json
 	@$(NPM) sbom --sbom-format cyclonedx --package-lock-only --omit dev > build/sbom-page.cdx.json
 
-train: $(VENV)/.runtime ## Train the tagger of the built-in language engine (a large library, and minutes)
-	@$(PIP) install --quiet --group train
-	@$(BIN)/python -m parley.language.builtin.training.train
+train: $(VENV)/.dev ## Train the tagger of the built-in language engine (a large library, and minutes)
+	@$(PIP) install --quiet -e packages/parley-train
+	@$(BIN)/python -m parley_train.train
 
 clean: ## Remove everything that was made
 	rm -rf $(VENV) frontend/node_modules src/parley/web/static dist build .mypy_cache .ruff_cache .pytest_cache .hypothesis
@@ -135,5 +135,5 @@ $(VENV)/.runtime: $(VENV)/.pip pyproject.toml requirements.lock
 $(VENV)/.dev: $(VENV)/.runtime constraints.txt
 	@echo "Installing what its tests and checks need"
 	@$(PIP) install --quiet -c constraints.txt --group dev
-	@$(PIP) install --quiet --no-deps --no-build-isolation -e packages/parley-bt
+	@$(PIP) install --quiet --no-deps --no-build-isolation -e packages/parley-bt -e packages/parley-train
 	@touch $@

@@ -41,8 +41,6 @@ ENGLISH = re.compile(
 )
 SAID_IN = re.compile(r"[A-Z“◯].* .*[.?!]", re.DOTALL)
 WITHOUT = {
-    "builtin/training",  # sentences to learn from
-    "builtin/markup.py",
     "builtin/lexicon.py",  # mistakes in our own data
     "web/app.py",  # of the description for programs
 }

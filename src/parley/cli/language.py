@@ -1,4 +1,4 @@
-"""`parley language`: words and sentences of one's own trade, and what the built-in engine learns from."""
+"""`parley language`: words and sentences of one's own trade."""
 
 from __future__ import annotations
 
@@ -22,7 +22,6 @@ from parley.demos.catalogue import DEMOS, demo_folder
 from parley.errors import ConfigError, FileFormatError
 from parley.files import read_text, validated_yaml
 from parley.language.base import Language, Situation
-from parley.language.builtin.training.markup import read_text as read_sentences
 from parley.language.dialogue.taught import Taught, entry_of, key, taught_in
 from parley.language.dialogue.teaching import Learned, weighed
 from parley.language.llm import build_language
@@ -164,13 +163,3 @@ async def _forgotten(path: Path, words: str) -> None:
         gone = await store.remove(taught_name(key(words)), None)
     if not gone:
         raise typer.Exit(fail(f"nobody taught what “{words}” means", code=1))
-
-
-@app.command()
-def check(
-    file: Annotated[Path, typer.Argument(help="Annotated sentences, one a line.")],
-) -> None:
-    """Check annotated sentences; the first line that is wrong is named."""
-    sentences = list(read_sentences(read_text(file), file.name))
-    frames = {trigger.frame for sentence in sentences for trigger in sentence.triggers}
-    typer.echo(f"{len(sentences)} sentences, {len(frames)} frames: they can be read")

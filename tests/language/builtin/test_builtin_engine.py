@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 import random
-from importlib import resources
 
 import pytest
 
@@ -15,7 +12,6 @@ from parley.language.builtin.decision import Ask, Do
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.builtin.lexicon import lexicon
 from parley.language.builtin.tagger import shipped_tagger
-from parley.language.builtin.training.data import data_hash
 from parley.language.dialogue.state import Dialogue, Order
 from parley.messages.status import ActionInfo
 from parley.umrf.catalogue import info_of
@@ -46,13 +42,6 @@ def test_both_witnesses_read_the_sentences_of_a_frame_as_that_frame(frame: str) 
         assert [wish.frame for wish in reading.wishes] == [frame], sentence
         assert reading.wishes[0].witness == ("unknown" if frame == "DO" else "agrees"), sentence
         assert not (reading.left_over or reading.unsteady), sentence
-
-
-def test_weights_and_data_belong_together() -> None:
-    folder = resources.files("parley.language.builtin") / "weights"
-    card = json.loads((folder / "card.json").read_text(encoding="utf-8"))
-    weights = hashlib.sha256((folder / "tagger.onnx").read_bytes()).hexdigest()
-    assert (card["data_sha256"], card["weights_sha256"]) == (data_hash(), weights), "run make train"
 
 
 async def test_what_is_said_is_what_is_done_and_nothing_else() -> None:

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from parley.language.builtin.labels import Act
-from parley.language.builtin.training.markup import Annotated, RoleSpan, Trigger, read_line
+from parley_train.markup import Annotated, RoleSpan, Trigger, read_line
 
 __all__ = ["exchanged", "fill", "joined", "vary"]
 

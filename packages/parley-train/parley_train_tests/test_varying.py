@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import random
 
-from parley.language.builtin.training.data import written
-from parley.language.builtin.training.markup import Annotated, read_line
-from parley.language.builtin.training.varying import exchanged, joined, vary
+from parley_train.data import written
+from parley_train.markup import Annotated, read_line
+from parley_train.varying import exchanged, joined, vary
 
 TWO = read_line("order\t{take:TAKE} (T the old *box) and {leave:!TAKE} (T the other *half) (G in the *hall)")
 OTHER = read_line("told\t(T the small grey and dusty *cat) {is:BELOC} (L in the *garden)")
