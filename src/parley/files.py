@@ -6,6 +6,8 @@ import json
 import os
 import tempfile
 from abc import abstractmethod
+from functools import lru_cache
+from importlib import resources
 from pathlib import Path
 from typing import Any, Final, Self, TypeVar
 
@@ -17,7 +19,7 @@ from parley.errors import FileFormatError
 
 __all__ = [
     "TextFile", "field_path", "parse_json", "parse_yaml", "read_text", "replace_text", "validated",
-    "validated_yaml",
+    "validated_yaml", "words_in",
 ]  # fmt: skip
 
 M = TypeVar("M", bound=BaseModel)
@@ -186,3 +188,17 @@ def _line(node: yaml.Node | None, location: tuple[int | str, ...]) -> int:
 def field_path(location: tuple[int | str, ...]) -> str:
     """``("items", 2, "x")`` as ``items[2].x``."""
     return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in location).lstrip(".")
+
+
+# The base loader builds nothing but text, lists and mappings; the first message waits for this, so be quick.
+_WORDS_LOADER: Final = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
+
+
+@lru_cache(maxsize=64)
+def words_in(package: str, name: str) -> Any:
+    """The content of a YAML file of words that lies in a package; read once, so nobody may change it.
+
+    Every scalar is text: in such a file ``no`` and ``on`` are words, not truth values.
+    """
+    text = (resources.files(package) / f"{name}.yaml").read_text(encoding="utf-8")
+    return yaml.load(text, Loader=_WORDS_LOADER)

@@ -9,8 +9,8 @@ from typing import Final
 from parley.actions.context import ActionContext
 from parley.errors import ActionFailure, FailureCode
 from parley.gate.assent import assent_of, begins_with_no
-from parley.language.control import control_of
-from parley.language.stop_words import calls_to_stop
+from parley.gate.control import control_of
+from parley.gate.stop_words import calls_to_stop
 from parley.umrf.action import action
 
 __all__ = ["ATTEMPTS", "Answer", "ask_operator"]

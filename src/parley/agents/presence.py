@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Final
 
 from parley.clock import Clock
-from parley.language.control import Control
-from parley.language.stop_words import called
+from parley.gate.control import Control
+from parley.gate.stop_words import called
 from parley.messages import topics
 from parley.messages.plain import named_in
 from parley.messages.status import ActorStatus, StopReport

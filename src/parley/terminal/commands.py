@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from parley.language.control import control_of
+from parley.gate.control import control_of
 from parley.messages.chat import ChatInput
 from parley.messages.status import PlanDecision, PlanProposal
 from parley.sentences import SpokenLanguage, in_language

@@ -16,7 +16,7 @@ from parley import __version__
 from parley.clock import Clock, WallClock
 from parley.errors import StoreError
 from parley.gate.stop_line import StopLine
-from parley.language.stop_words import has_stop_word
+from parley.gate.stop_words import has_stop_word
 from parley.messages.chat import ChatFeedback, ChatImage
 from parley.messages.map import MapView
 from parley.messages.principal import Principal, person

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from parley.language.control import control_of
+from parley.gate.control import control_of
 from parley.messages.attendance import Unattended
 from parley.messages.chat import ChatFeedback, ChatImage, ChatInput, ReplyDraft
 from parley.messages.principal import Principal

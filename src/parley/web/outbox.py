@@ -11,7 +11,7 @@ import structlog
 
 from parley.clock import Clock
 from parley.errors import StoreError
-from parley.language.stop_words import has_stop_word
+from parley.gate.stop_words import has_stop_word
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.status import PlanDecision
 from parley.sentences import Sentence, sentence

@@ -13,7 +13,7 @@ from starlette.responses import Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
-from parley.language.stop_words import has_stop_word
+from parley.gate.stop_words import has_stop_word
 from parley.messages.principal import Principal
 from parley.web.bodies import ChatPost, StopAnswer, StopPost
 from parley.web.stopping import Stop, Stopper

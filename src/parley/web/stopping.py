@@ -10,7 +10,7 @@ from typing import Final
 
 from parley.clock import Clock
 from parley.gate.stop_line import StopLine
-from parley.language.stop_words import called
+from parley.gate.stop_words import called
 from parley.latest import Latest
 from parley.messages.principal import Principal
 from parley.messages.status import StopCommand

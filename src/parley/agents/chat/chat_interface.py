@@ -35,12 +35,12 @@ from parley.agents.thinking import PATIENCE_S, Thinking
 from parley.clock import Clock
 from parley.errors import FailureCode
 from parley.gate.assent import assent_of, begins_with_no, gives_up
+from parley.gate.control import Control, control_of
 from parley.gate.rule_talk import Listener, RuleReply, RuleTalk
+from parley.gate.stop_words import calls_to_stop, is_no, only_takes_back, opens_with_no
 from parley.gate.table import Effect, verdict
 from parley.language.base import Language
-from parley.language.control import Control, control_of
 from parley.language.dialogue.taught import taught_in, with_names
-from parley.language.stop_words import calls_to_stop, is_no, only_takes_back, opens_with_no
 from parley.memory.client import recall
 from parley.memory.missions import MissionStore
 from parley.messages import topics

@@ -10,7 +10,7 @@ from __future__ import annotations
 import uuid
 from collections.abc import Callable
 
-from parley.language.stop_words import has_stop_word
+from parley.gate.stop_words import has_stop_word
 from parley.messages.chat import ChatInput
 from parley.messages.status import ActorStatus, PlanUpdate, StopCommand
 

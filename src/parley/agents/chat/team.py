@@ -12,6 +12,7 @@ from parley.agents.chat.texts import not_there
 from parley.agents.planner.flow import pending_calls
 from parley.agents.presence import Presence
 from parley.gate.orders import UNSURE_OF_ALL
+from parley.gate.stop_words import calls_to_stop
 from parley.language.base import Language, Situation
 from parley.language.dialogue.state import Order
 from parley.language.dialogue.team import (
@@ -22,7 +23,6 @@ from parley.language.dialogue.team import (
     is_of_several,
     team_wish,
 )
-from parley.language.stop_words import calls_to_stop
 from parley.latest import Latest
 from parley.messages.chat import ActionCall, ChatAction, ChatInput
 from parley.messages.status import ActorStatus, PlanProposal

@@ -6,8 +6,8 @@ import re
 from collections.abc import Sequence
 from typing import Final
 
-from parley.language.control import Control
-from parley.language.stop_words import calls_to_stop, only_takes_back
+from parley.gate.control import Control
+from parley.gate.stop_words import calls_to_stop, only_takes_back
 from parley.sentences import sentence, together
 
 __all__ = [

@@ -12,9 +12,9 @@ from parley.agents.recovery.repair import Repair, failed_situation, memory_query
 from parley.agents.shown_pictures import sent_pictures
 from parley.agents.thinking import Thinking
 from parley.errors import FailureCode, LanguageError
+from parley.gate.control import control_of
 from parley.gate.orders import Heard, admit_repair, engine, is_chosen
 from parley.language.base import ErrorSituation, Language
-from parley.language.control import control_of
 from parley.memory.client import recall
 from parley.messages.chat import ChatAction, ChatImage, ChatInput
 from parley.messages.failure import ErrorHandlingMessage

@@ -25,11 +25,11 @@ from parley.agents.thinking import PATIENCE_S, Thinking
 from parley.clock import Clock
 from parley.errors import InvalidMessageError
 from parley.gate.assent import assent_of
+from parley.gate.control import Control, control_of
 from parley.gate.orders import engine
 from parley.gate.rule_talk import Listener, RuleTalk
 from parley.gate.table import Effect, verdict
 from parley.language.base import Language, Turn
-from parley.language.control import Control, control_of
 from parley.memory.incidents import IncidentStore
 from parley.messages import topics
 from parley.messages.chat import (

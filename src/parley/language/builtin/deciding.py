@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from parley.gate.assent import gives_up
+from parley.gate.control import control_of
 from parley.language.base import Situation
 from parley.language.builtin.addressing import addressed, for_nobody
 from parley.language.builtin.answers import answer, look_asked_for
@@ -25,7 +26,6 @@ from parley.language.builtin.skills import Skills
 from parley.language.builtin.structure import Part, Unclear, arranged
 from parley.language.builtin.tokens import Token, spoken, tokenize
 from parley.language.builtin.wishes import Wish
-from parley.language.control import control_of
 from parley.language.dialogue import policy
 from parley.language.dialogue.facts import is_report
 from parley.language.dialogue.indirect import meant

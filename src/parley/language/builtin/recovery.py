@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 from parley.errors import FailureCode
+from parley.gate.control import control_of
 from parley.language.base import ErrorSituation, Situation
 from parley.language.builtin.decision import Ask, Decision, Do
 from parley.language.builtin.facts import Place, known_place, places
@@ -18,7 +19,6 @@ from parley.language.builtin.reply import to_chat
 from parley.language.builtin.saying import with_article
 from parley.language.builtin.things import head_of, link, noun_phrase
 from parley.language.builtin.tokens import tokenize
-from parley.language.control import control_of
 from parley.language.dialogue.answers import differences, listed
 from parley.language.dialogue.mentions import named
 from parley.language.dialogue.places import rooms

@@ -7,12 +7,12 @@ from collections.abc import MutableMapping
 from dataclasses import replace
 from typing import Final
 
+from parley.gate.stop_words import has_stop_word
 from parley.language.builtin.decision import Ask
 from parley.language.builtin.grounding import Grounder, Value, is_somebody
 from parley.language.builtin.lexicon import stem
 from parley.language.builtin.skills import Skill
 from parley.language.builtin.wishes import Wish
-from parley.language.stop_words import has_stop_word
 from parley.umrf.kinds import words_of_name
 
 __all__ = ["followed", "spoken"]

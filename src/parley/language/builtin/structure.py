@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from parley.gate.control_grammar import composed
 from parley.language.builtin.clauses import Clause
 from parley.language.builtin.lexicon import Lexicon, lemmas
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.spans import Parse
-from parley.language.control_grammar import composed
 
 __all__ = ["Condition", "If", "Node", "Orders", "Part", "Unclear", "arranged", "order_wishes"]
 

@@ -6,15 +6,15 @@ import re
 from collections.abc import Callable, Sequence
 from typing import Final
 
+from parley.gate.control import control_of
+from parley.gate.stop_words import calls_to_stop, has_stop_word
 from parley.language.base import Situation
 from parley.language.builtin.decision import Told
 from parley.language.builtin.lexicon import Lexicon, stem
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.tokens import Token
-from parley.language.control import control_of
 from parley.language.dialogue.mentions import named
 from parley.language.dialogue.questions import asks
-from parley.language.stop_words import calls_to_stop, has_stop_word
 from parley.messages.memory import MemoryEntry
 
 __all__ = [

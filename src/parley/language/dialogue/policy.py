@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Final
 
 from parley.gate.assent import gives_up
+from parley.gate.control import control_of
 from parley.language.base import Situation
 from parley.language.builtin.decision import Answer, Ask, Decision, Do, Edit, Forget, Remember, Told
 from parley.language.builtin.facts import Place
@@ -18,7 +19,6 @@ from parley.language.builtin.reply import said as words_for
 from parley.language.builtin.saying import which_one
 from parley.language.builtin.structure import Part
 from parley.language.builtin.tokens import Token, tokenize
-from parley.language.control import control_of
 from parley.language.dialogue.answers import answer, differences
 from parley.language.dialogue.changes import (
     Change,

@@ -8,14 +8,14 @@ from types import MappingProxyType
 from typing import Final
 
 from parley.gate.assent import assent_of, begins_with_no
+from parley.gate.control import control_of
+from parley.gate.stop_words import calls_to_stop
 from parley.language.base import ReplyReading
 from parley.language.builtin.lexicon import stem
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.tokens import tokenize
 from parley.language.builtin.wishes import Wish
-from parley.language.control import control_of
 from parley.language.dialogue.questions import asks, plain
-from parley.language.stop_words import calls_to_stop
 
 __all__ = ["chosen", "is_done", "is_thinking", "names_deed", "read_reply", "words_of"]
 

@@ -7,10 +7,10 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final, Literal
 
+from parley.gate.control import control_of
 from parley.language.builtin.amounts import amount_of, in_unit
 from parley.language.builtin.lexicon import stem
 from parley.language.builtin.tokens import tokenize
-from parley.language.control import control_of
 from parley.language.dialogue.questions import plain
 from parley.language.dialogue.replies import is_done, words_of
 

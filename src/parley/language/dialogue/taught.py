@@ -14,13 +14,13 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 from parley.gate.assent import assent_of
+from parley.gate.control import control_of
+from parley.gate.stop_words import calls_to_stop, is_no
 from parley.language.base import Situation
 from parley.language.builtin.lexicon import lexicon, stems
 from parley.language.builtin.tokens import tokenize
-from parley.language.control import control_of
 from parley.language.dialogue.questions import plain, question_of
 from parley.language.lexicon import load_data
-from parley.language.stop_words import calls_to_stop, is_no
 from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry, taught_name
 from parley.messages.pvf import NATIVE_TYPES, fits_type

@@ -13,12 +13,12 @@ from dataclasses import dataclass, replace
 from functools import cache
 from typing import Final, Literal
 
+from parley.gate.control import control_of
+from parley.gate.stop_words import calls_to_stop
 from parley.language.builtin.lexicon import lemmas, lexicon
 from parley.language.builtin.tokens import tokenize
-from parley.language.control import control_of
 from parley.language.dialogue.questions import asks, plain, question_of
 from parley.language.lexicon import load_data
-from parley.language.stop_words import calls_to_stop
 
 __all__ = ["Part", "TeamWish", "asked_by_name", "is_in_turn", "is_of_several", "team_wish"]
 

@@ -7,8 +7,8 @@ from typing import Annotated
 from fastapi import APIRouter, Path, Query
 from starlette.responses import Response
 
+from parley.gate.stop_words import calls_to_stop
 from parley.gate.table import Effect
-from parley.language.stop_words import calls_to_stop
 from parley.web.bodies import ChatPage, ChatPost
 from parley.web.models import ChatEntry
 from parley.web.problems import WebProblem

@@ -7,8 +7,8 @@ from typing import Annotated
 from fastapi import APIRouter, Query
 from pydantic import StringConstraints
 
+from parley.gate.stop_words import has_stop_word
 from parley.gate.table import Effect
-from parley.language.stop_words import has_stop_word
 from parley.web.bodies import Done, FavouritePut
 from parley.web.models import Favourite
 from parley.web.problems import WebProblem

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from parley.language.control import Control, control_of
+from parley.gate.control import Control, control_of
 
 
 @pytest.mark.parametrize(

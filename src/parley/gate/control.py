@@ -13,8 +13,8 @@ from typing import Literal
 
 from rapidfuzz.distance import OSA
 
-from parley.language.control_grammar import among_talk, composed
-from parley.language.lexicon import load_data
+from parley.files import words_in
+from parley.gate.control_grammar import among_talk, composed
 
 __all__ = ["Control", "control_of"]
 
@@ -265,17 +265,17 @@ _SLIPS: dict[str, Control] = {
 
 @cache
 def _around() -> frozenset[str]:
-    return frozenset(part for text in load_data("control")["around"] for part in text.split())
+    return frozenset(part for text in words_in("parley.gate", "control")["around"] for part in text.split())
 
 
 @cache
 def _polite() -> frozenset[str]:
-    return frozenset(load_data("control")["polite"])
+    return frozenset(words_in("parley.gate", "control")["polite"])
 
 
 @cache
 def _table() -> dict[tuple[str, ...], Control]:
-    data = load_data("control")
+    data = words_in("parley.gate", "control")
     table: dict[tuple[str, ...], Control] = {}
     for control in _CONTROLS:
         for language in data[control]:

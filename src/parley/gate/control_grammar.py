@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any, Literal
 
-from parley.language.lexicon import load_data
+from parley.files import words_in
 
 __all__ = ["among_talk", "composed"]
 
@@ -32,7 +32,7 @@ _THIS_FIRST = frozenset(
 
 @cache
 def _data() -> dict[str, Any]:
-    data: dict[str, Any] = load_data("control_grammar")
+    data: dict[str, Any] = words_in("parley.gate", "control_grammar")
     return data
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from parley.language.stop_words import called, calls_to_stop, has_stop_word, is_no, only_takes_back
+from parley.gate.stop_words import called, calls_to_stop, has_stop_word, is_no, only_takes_back
 
 
 @pytest.mark.parametrize(
