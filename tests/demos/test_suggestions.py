@@ -12,7 +12,7 @@ from parley.demos.catalogue import DEMOS, load_demo
 from parley.language.base import Situation
 from parley.language.builtin.decision import Answer, Ask, Decision, Do
 from parley.language.builtin.engine import BuiltinLanguage
-from parley.language.dialogue.team import team_wish
+from parley.team.wishes import team_wish
 from parley.umrf.catalogue import info_of
 
 ENGINE = BuiltinLanguage()

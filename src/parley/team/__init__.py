@@ -1,1 +1,1 @@
-"""Several robots at one order: who does what, and why. Knows no node; ways and words are handed in."""
+"""Several robots at one order: who does what, and why. Knows no node; ways are handed in."""

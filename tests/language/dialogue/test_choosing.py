@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from parley.agents.chat.log import Log
 from parley.language.builtin.decision import Do
 from parley.language.builtin.engine import BuiltinLanguage
-from parley.language.dialogue.log import Log
 from parley.language.dialogue.state import Asked
 from tests.language.builtin.worlds import THINGS, situation, thing
 

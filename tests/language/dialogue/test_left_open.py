@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from parley.agents.chat.log import Log
 from parley.language.base import Situation, Turn
 from parley.language.builtin.decision import Answer, Ask, Do
 from parley.language.builtin.engine import BuiltinLanguage
-from parley.language.dialogue.log import Log
 from parley.language.dialogue.state import Asked, Order
 from parley.messages.chat import ActionCall, LeftOpen
 from tests.language.builtin.worlds import situation

@@ -22,13 +22,13 @@ from parley.gate.orders import Heard, admit
 from parley.language.builtin.tokens import tokenize
 from parley.language.dialogue.questions import plain, question_of
 from parley.language.dialogue.state import Order
-from parley.language.dialogue.team import TeamWish
 from parley.latest import Latest
 from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.status import ActionInfo, PlanDecision, PlanRuling, PlanUpdate
 from parley.messages.team import MissionInfo, MissionPart
 from parley.sentences import Sentence, sentence, together
+from parley.team.wishes import TeamWish
 
 __all__ = ["Missions"]
 

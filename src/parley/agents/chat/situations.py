@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Final, Literal
 
 from parley.agents.chat.conversation import Conversation
+from parley.agents.chat.log import Log
 from parley.agents.chat.memories import memory_query
 from parley.agents.planner.flow import pending_calls, pending_ids
 from parley.agents.presence import Presence
@@ -14,7 +15,6 @@ from parley.agents.recovery.repair import failed_situation
 from parley.agents.shown_pictures import remembered_pictures, sent_pictures
 from parley.clock import Clock
 from parley.language.base import Situation
-from parley.language.dialogue.log import Log
 from parley.language.dialogue.state import Order
 from parley.latest import Latest
 from parley.memory.client import recall, recall_newest

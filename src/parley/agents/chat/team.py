@@ -15,7 +15,13 @@ from parley.gate.orders import UNSURE_OF_ALL
 from parley.gate.stop_words import calls_to_stop
 from parley.language.base import Language, Situation
 from parley.language.dialogue.state import Order
-from parley.language.dialogue.team import (
+from parley.latest import Latest
+from parley.messages.chat import ActionCall, ChatAction, ChatInput
+from parley.messages.status import ActorStatus, PlanProposal
+from parley.sentences import Sentence, listed, sentence, together
+from parley.team.outlook import Outlook, Survey, Task
+from parley.team.sharing import alike, in_turn, is_search, left_of, place_of, shared, tasks_of, why
+from parley.team.wishes import (
     Part,
     TeamWish,
     asked_by_name,
@@ -23,12 +29,6 @@ from parley.language.dialogue.team import (
     is_of_several,
     team_wish,
 )
-from parley.latest import Latest
-from parley.messages.chat import ActionCall, ChatAction, ChatInput
-from parley.messages.status import ActorStatus, PlanProposal
-from parley.sentences import Sentence, listed, sentence, together
-from parley.team.outlook import Outlook, Survey, Task
-from parley.team.sharing import alike, in_turn, is_search, left_of, place_of, shared, tasks_of, why
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from parley.language.dialogue.team import Part, asked_by_name, team_wish
-from parley.language.lexicon import load_data
+from parley.files import words_in
+from parley.team.wishes import Part, asked_by_name, team_wish
 
 ROBOTS = ("Ada", "Kim")
-SAYS = [(kind, say) for kind, says in load_data("team")["tests"].items() for say in says]
+SAYS = [(kind, say) for kind, says in words_in("parley.team", "wishes")["tests"].items() for say in says]
 
 
 @pytest.mark.parametrize(("kind", "say"), SAYS)

@@ -1,7 +1,7 @@
 """What is said to several robots as a team: who of them is to do what, or which of them is asked about.
 
 Only the way in which the work is spread is read here. The work itself ("check the boxes") is left in the
-person's words, to be understood as if it were said to one robot. Words stand in `lexicon/team.yaml`.
+person's words, to be understood as if it were said to one robot. Words stand in `wishes.yaml`.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from dataclasses import dataclass, replace
 from functools import cache
 from typing import Final, Literal
 
+from parley.files import words_in
 from parley.gate.control import control_of
 from parley.gate.stop_words import calls_to_stop
 from parley.language.builtin.lexicon import lemmas, lexicon
 from parley.language.builtin.tokens import tokenize
 from parley.language.dialogue.questions import asks, plain, question_of
-from parley.language.lexicon import load_data
 
 __all__ = ["Part", "TeamWish", "asked_by_name", "is_in_turn", "is_of_several", "team_wish"]
 
@@ -119,7 +119,11 @@ def asked_by_name(message: str, robots: Sequence[str], hearer: str) -> TeamWish 
 
 @cache
 def _data() -> dict[str, list[str]]:
-    return {name: text.splitlines() for name, text in load_data("team").items() if isinstance(text, str)}
+    return {
+        name: text.splitlines()
+        for name, text in words_in("parley.team", "wishes").items()
+        if isinstance(text, str)
+    }
 
 
 class _Words:
