@@ -107,10 +107,10 @@ def _next_word(low: Sequence[str], at: int) -> int | None:
 def _opened(parse: Parse, low: Sequence[str], at: int, lexicon: Lexicon) -> tuple[Link, int] | None:
     """What is opened by the words at a place, and how many words do it."""
     counted = _counted(low, at)
-    if counted is not None and any(span.role == "O" and span.start <= at < span.end for span in parse.spans):
-        return None
     if counted is not None:
-        return counted
+        told = at > 0 and parse.acts[at - 1] in ("told", "need") and low[at - 1] not in _STOPS | _JOINS
+        often = any(span.role == "O" and span.start <= at < span.end for span in parse.spans)
+        return None if often or (told and counted[0] == "delay") else counted
     best: tuple[Link, int] | None = None
     for link in _LINKS:
         for size in range(5, 0, -1):
@@ -162,6 +162,8 @@ def _is_link(parse: Parse, low: Sequence[str], at: int, size: int, link: Link, l
     """Whether a word that may link does so here: "see if" asks, "look after" is a verb."""
     before = low[at - 1] if at else ""
     apart = not before or before in _STOPS | _JOINS
+    if low[at] == "till" and before in lexicon.classes["determiners"]:
+        return False  # where one pays
     if low[at] == "should":
         return apart and "be" in low[at + 2 :] and low[at + 1] not in ("i", "you", "we")
     if link in ("if", "when", "unless"):

@@ -16,7 +16,7 @@ from parley.language.builtin.decision import Answer, Ask, Control, Decision, Dee
 from parley.language.builtin.deeds import Builder
 from parley.language.builtin.facts import places, rule_of, told_of
 from parley.language.builtin.fillers import Filler
-from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.lexicon import Lexicon, stem
 from parley.language.builtin.listings import listing
 from parley.language.builtin.planner import Planner, contradicted, orders_of
 from parley.language.builtin.reading import Reading
@@ -90,6 +90,8 @@ def _decided(
     if rule is not None:
         return Remember((rule,))
     made = _alone(situation, parts, skills, lexicon, reader)
+    if _asks_ability(situation.message, whole, lexicon) and orders_of(whole)[0].frame in skills:
+        return Answer("Yes, I can do that. Tell me which, and I will.")
     if isinstance(made, Answer) and not made.sources and "question" in whole.acts and not situation.question:
         made = _looking(situation, tokens, skills, lexicon, again) or made
     open_ask = isinstance(made, Ask) and not (made.choices or made.alarms or made.where)
@@ -107,6 +109,19 @@ def _decided(
         made = _for_who_is_there(situation, told, again) or made
         return replace(made, told=told) if isinstance(made, Ask) else made
     return made
+
+
+def _asks_ability(message: str, reading: Reading, lexicon: Lexicon) -> bool:
+    """Whether it is asked what can be done with things of a kind, no one of them: "can you open gates?"."""
+    asks = message.lower().startswith("can you ") and message.rstrip().endswith("?")
+    orders = orders_of(reading)
+    things = orders[0].all("T") if len(orders) == 1 and len(orders[0].fillers) == 1 else ()
+    small = lexicon.classes["determiners"] | lexicon.classes["quantifiers"]
+    return asks and any(not {*f.words} & small and len(f.words) == 1 and _is_many(f.words[0]) for f in things)
+
+
+def _is_many(word: str) -> bool:
+    return word.endswith("s") and stem(word) != word
 
 
 def _for_who_is_there(situation: Situation, told: tuple[Told, ...], again: Again) -> Do | None:
@@ -294,7 +309,7 @@ def _told(situation: Situation, parts: tuple[Part, ...], lexicon: Lexicon) -> tu
         if part.clause.link == "main":
             starts = [token.start for token in part.parse.tokens]
             ends = part.parse.tokens[-1].end
-            found += told_of(part.reading, situation.message[:ends], starts, lexicon)
+            found = [*told_of(part.reading, situation.message[:ends], starts, lexicon, found)]
     return tuple(found)
 
 

@@ -26,6 +26,8 @@ from parley.world.object_map import MapObject
 
 __all__ = ["Builder"]
 
+_TITLES = frozenset({"mr", "mrs", "ms", "miss", "dr", "sir", "madam"})
+_LEFT_OUT_OF = "I do not know what “{}” is left out of. Can you say it otherwise?"
 _LOGIC = {"C": "a condition", "W": "a time"}
 _MOST_TIMES = 10
 
@@ -39,6 +41,7 @@ class Builder(Doing):
         self.whole = None
         if wish.own is not None:
             often = self._logic(wish) or self.times(wish)
+            self._excepted(wish)
             made = often if isinstance(often, Ask) else self._owned(wish, wish.own)
             return made if isinstance(made, Ask) or isinstance(often, Ask) else made * often
         wish = self._seen(wish)
@@ -190,8 +193,7 @@ class Builder(Doing):
     def _values(self, wish: Wish) -> dict[str, Value] | Ask:
         """What the roles of a wish hold."""
         values: dict[str, Value] = {}
-        said = [word for filler in wish.all("E") for word in filler.words]
-        self.left_out += tuple(word for word in said if word not in self.lexicon.classes["excepting"])
+        self._excepted(wish)
         for filler in wish.fillers:
             itself = filler.words[-1] in _ITSELF.get(wish.frame, ())
             if filler.role in "OE" or (filler.role == "T" and itself):
@@ -202,10 +204,13 @@ class Builder(Doing):
             if value is not None:
                 values[filler.role] = value
         if self.left_out:
-            return Ask(
-                f"I do not know what “{' '.join(self.left_out)}” is left out of. Can you say it otherwise?"
-            )
+            return Ask(_LEFT_OUT_OF.format(" ".join(self.left_out)))
         return values
+
+    def _excepted(self, wish: Wish) -> None:
+        """Take up what is left out of the next set."""
+        said = [word for filler in wish.all("E") for word in filler.words]
+        self.left_out += tuple(word for word in said if word not in self.lexicon.classes["excepting"])
 
     def _owned(self, wish: Wish, own: OwnAction) -> list[Deed] | Ask:
         """The deeds of an action of the robot's own: one, or one for each of a set."""
@@ -221,6 +226,8 @@ class Builder(Doing):
             self.bound = before
             if isinstance(made, Ask):
                 return made
+            if self.left_out:
+                return Ask(_LEFT_OUT_OF.format(" ".join(self.left_out)))
             looks = "looks" in own.action.effects and "GO" in self.skills
             found += [*self.way_to_thing(one or self.last_thing if looks else None), *made]
         return found
@@ -397,9 +404,16 @@ class Builder(Doing):
         thing = values["T"]
         if "S" in values and wish.frame == "GIVE" and "TAKE" not in self.skills:
             return Ask("I cannot pick things up.")
+        said = wish.all("T")[0].words
+        if said[0] in _TITLES or is_somebody(said[wish.all("T")[0].head]):
+            return Ask(f"I do not pick up people. What shall I do with {thing.said}?")
+        if thing.things and wish.frame in ("GIVE", "PUT") and all(map(self._is_place, thing.things)):
+            return Ask(f"I cannot bring {thing.said}. What shall I do there?")
         before = self.before is not None and thing.things == (self.before,)
-        said = {*wish.all("T")[0].words} <= self.lexicon.classes["pronouns"]
-        if not (before and said and "TAKE" in self.skills) or thing.argument in self.held:
+        if (
+            not (before and {*said} <= self.lexicon.classes["pronouns"] and "TAKE" in self.skills)
+            or thing.argument in self.held
+        ):
             return None
         return Ask(f"What do you mean by “{wish.all('T')[0].text}”? Please say its name.")
 

@@ -31,7 +31,9 @@ class Place:
     memory: MemoryEntry
 
 
-def told_of(reading: Reading, message: str, starts: Sequence[int], lexicon: Lexicon) -> tuple[Told, ...]:
+def told_of(
+    reading: Reading, message: str, starts: Sequence[int], lexicon: Lexicon, before: Sequence[Told] = ()
+) -> tuple[Told, ...]:
     """The facts of a message.
 
     Args:
@@ -39,18 +41,23 @@ def told_of(reading: Reading, message: str, starts: Sequence[int], lexicon: Lexi
         message: Its text.
         starts: Where each of its words begins in it.
         lexicon: Words.
+        before: Those told just before it.
+
+    Returns:
+        All of them.
     """
-    found: list[Told] = []
+    found = [*before]
     for wish in reading.wishes:
         thing = wish.one("T")
-        if wish.frame != "BELOC" or wish.act != "told":
+        if wish.frame not in ("BELOC", "GO") or wish.act != "told":
             continue
-        before = message[starts[wish.start - 1] : starts[wish.start]].strip().lower() if wish.start else ""
-        name = _name(thing, lexicon) if thing is not None else (before,)
+        said = message[starts[wish.start - 1] : starts[wish.start]].strip().lower() if wish.start else ""
+        name = _name(thing, lexicon) if thing is not None else (said,)
         if {*name} & (lexicon.classes["pronouns"] | lexicon.classes["persons"] | {"they"}):
             found = _moved(found, wish, reading)
             continue  # nobody knows later who or what was meant
-        if thing is None or not wish.has("LG"):
+        vague = reading.unsteady or {*name} <= lexicon.classes["determiners"] | {"there's"}
+        if thing is None or vague or not wish.has("LG") or wish.frame == "GO":
             continue
         start = min(starts[min([wish.start, *(filler.start for filler in wish.fillers)])], len(message))
         last = max(filler.end for filler in wish.fillers)
@@ -72,7 +79,8 @@ def _moved(found: list[Told], wish: Wish, reading: Reading) -> list[Told]:
     owner = last.about.removeprefix("Where ").removesuffix(" is")
     gone = _GONE.search(last.text) is not None
     kept = found[:-1] if gone else found
-    return [*kept, Told(last.name, f"{owner} is {places[0].text}", last.about)]
+    where = re.sub(r"^(?:in)?to\b", "at", places[0].text)
+    return [*kept, Told(last.name, f"{owner} is {where}", last.about)]
 
 
 _GONE = re.compile(r"n['’]t\b|\b(?:not|no longer|never|left)\b")
@@ -125,6 +133,8 @@ def rule_of(parts: Sequence[Part], message: str, lexicon: Lexicon) -> Told | Non
     if not (sees or wrong) or (parts[0] is not cases[0] and cases[0].clause.fronted):
         return None
     name = words[2:] if sees else words
+    if {*name} <= lexicon.classes["pronouns"] | lexicon.classes["persons"]:
+        return None  # "look for the mug and take it if you see it"
     small = lexicon.classes["determiners"] | lexicon.classes["small"] | lexicon.classes["prepositions"]
     key = "_".join(word for word in name if word not in small)[:150]
     text = message.strip().rstrip(".!")

@@ -15,6 +15,7 @@ _WHOM = frozenset({"him", "her", "them", "it"})
 _IS = frozenset({"is", "are", "'s", "’s", "'re", "’re"})
 _AT = frozenset({"at", "in", "on", "by", "near", "beside", "behind", "inside", "under", "over"})
 _BREAKS = frozenset({",", ";", ".", ":", "!", "?", "and", "then", "but", "or", "please", "so"})
+_APART = frozenset({",", ";", ".", ":", "!", "?", "but", "now", "then"})
 _FETCHED = frozenset({"BRING", "TAKE", "GIVE"})
 _MEETING = frozenset({"FOLLOW", "FIND", "GUIDE"})
 _WAYS = frozenset({"way", "direction"})
@@ -30,7 +31,23 @@ def folded(parse: Parse, lexicon: Lexicon) -> Parse:
         parse: What words are.
         lexicon: Closed classes.
     """
-    return _helped(_placed(_purposed(parse, lexicon)), lexicon)
+    return _helped(_placed(_purposed(_done_already(parse), lexicon)), lexicon)
+
+
+def _done_already(parse: Parse) -> Parse:
+    """With what somebody is thanked for, and what somebody did, as no order: "thanks for checking bay 2"."""
+    low, acts = [token.low for token in parse.tokens], [*parse.acts]
+    for verb in parse.verbs:
+        start = max((at + 1 for at in range(verb.start) if low[at] in _APART), default=0)
+        led = low[start : verb.start]
+        thanked = bool({*led} & {"thanks", "thank", "cheers"}) and led[-1:] == ["for"]
+        who = parse.tokens[start].text if len(led) == 1 else ""
+        behind = any(span.start == verb.end and span.role == "T" for span in parse.spans)
+        did = who.istitle() and low[verb.start].endswith("ed") and behind
+        if thanked or did:
+            end = next((at for at in range(verb.end, len(low)) if low[at] in _APART), len(low))
+            acts[start:end] = ["social" if thanked else "told"] * (end - start)
+    return replace(parse, acts=tuple(acts))
 
 
 def _purposed(parse: Parse, lexicon: Lexicon) -> Parse:

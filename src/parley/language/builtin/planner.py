@@ -203,7 +203,11 @@ class Planner:
             place = Filler("G", 0, size, max(size - 1, 0), words[:size])
             wishes = (Wish("GO", 0, "", (place,), 1.0, "agrees"),) if size else ()
             return Reading(frozenset({"order"}), wishes, (), ())
-        return replace(reading, acts=frozenset({"order"}), wishes=wishes)
+        end = max((f.end for wish in wishes for f in wish.fillers), default=len(part.low))
+        small = self.builder.lexicon.classes["small"]
+        behind = part.parse.tokens[end:]  # "... the incubator for mould"
+        rest = tuple(token.text for token in behind if token.is_word and token.low not in small)
+        return replace(reading, acts=frozenset({"order"}), wishes=wishes, left_over=rest)
 
     def _done(self, wishes: Sequence[Wish]) -> list[Deed] | Ask:
         deeds: list[Deed] = []

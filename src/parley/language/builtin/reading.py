@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -42,6 +43,7 @@ def read(parse: Parse, lexicon: Lexicon) -> Reading:
     parse = replace(parse, spans=tuple(_listed_on(parse, span) for span in parse.spans))
     spans = [part for span in _ordered_alone(parse, _merged(parse)) for part in _by_way(parse, span, lexicon)]
     spans = [part for span in spans for part in _one_by_one(parse, span, lexicon)]
+    spans = [_going_on(parse, span, spans[:at]) for at, span in enumerate(spans)]
     fillers = [_filler(parse, span, lexicon) for span in spans]
     for number, verb in enumerate(parse.verbs):
         mine = [filler for filler, span in zip(fillers, spans, strict=True) if span.owner == number]
@@ -60,7 +62,7 @@ def read(parse: Parse, lexicon: Lexicon) -> Reading:
         rest = tuple(filler for filler in rest if filler not in where)
     ordered = sorted([*wishes, *implied_wishes], key=lambda wish: wish.start)
     wanted = _without_openers(_once([retyped(wish, lexicon) for wish in ordered]), parse)
-    wanted = _led(_shared(wanted))
+    wanted = _in_order(_led(_shared(wanted)))
     spread = [part for wish in wanted for part in _spread(wish)]
     idle = _left_over(parse, lexicon)
     manner = tuple(word for word in idle if word.lower() in lexicon.classes["manner"])
@@ -121,8 +123,7 @@ def _merged(parse: Parse) -> list[Span]:
             if {*between} <= {",", "and"} and "and" in between:  # "at the desk and at the gate"
                 found[-1] = replace(last, end=span.end, share=min(last.share, span.share))
                 continue
-        loose = last is not None and last.owner is None and span.owner is None and last.end == span.start
-        if last is not None and loose and last.role == "T" and span.role == "L":
+        if last is not None and last.end == span.start and _is_its_place(parse, last, span):
             found[-1] = replace(last, end=span.end)
             continue
         nearest = max((n for n, verb in enumerate(parse.verbs) if verb.start < span.start), default=None)
@@ -138,6 +139,21 @@ def _merged(parse: Parse) -> list[Span]:
             span = replace(span, owner=nearest)
         found.append(span)
     return found
+
+
+def _is_its_place(parse: Parse, thing: Span, place: Span) -> bool:
+    """Whether a place is a part of how a thing is called: "the crane nearest to the desk, go there"."""
+    if parse.tokens[thing.end - 1].low in _MOST and thing.role in "TG" and place.role in "GLS":
+        return True
+    if thing.role != "T" or thing.owner is not None or place.role not in "GL":
+        return False
+    if place.owner is None:
+        return place.role == "L"
+    verb = parse.verbs[place.owner].start
+    return bool({token.low for token in parse.tokens[place.end : max(verb, place.end)]} & _BREAKS)
+
+
+_MOST = frozenset({"nearest", "closest", "nearer", "closer", "furthest", "farthest", "further", "farther"})
 
 
 def _fills_nothing(parse: Parse, span: Span) -> bool:
@@ -167,11 +183,31 @@ def _one_by_one(parse: Parse, span: Span, lexicon: Lexicon) -> list[Span]:
     alike = {at for at in begins if tokens[at].low == tokens[begins[0]].low}
     cuts = [at for at in range(span.start + 1, span.end - 1) if tokens[at].low == ","]
     cuts = [at for at in cuts if next((n for n in begins if n > at), -1) in alike]
-    edges = [span.start, *cuts, span.end] if span.role in "TG" else []
-    parts = [(start + (start in cuts), end) for start, end in pairwise(edges)]
+    leads = lexicon.classes["prepositions"] | small | lexicon.classes["quantifiers"] | {"and", "or", ","}
+    marks = {*cuts}
+    cuts += [
+        at
+        for at in range(span.start + 2, span.end - 1)
+        if span.role == "G" and tokens[at].low == "the" and tokens[at - 1].low not in leads
+    ]  # "the bar the pool"
+    edges = [span.start, *sorted(cuts), span.end] if span.role in "TG" else []
+    parts = [(start + (start in marks), end) for start, end in pairwise(edges)]
     return [
         replace(span, start=a, end=b, head=span.head if a <= span.head < b else b - 1) for a, b in parts
     ] or [span]
+
+
+def _going_on(parse: Parse, span: Span, before: Sequence[Span]) -> Span:
+    """A thing that only "and then" leads to, as one more that the same is done with."""
+    last = before[-1] if before else None
+    if span.role != "T" or span.owner is not None or last is None or last.owner is None:
+        return span
+    between = [token.low for token in parse.tokens[last.end : span.start]]
+    on = {*between} & _ON and {*between} <= _ON | {"and", ",", "also", "the", "please"}
+    return replace(span, role=last.role, owner=last.owner) if on and last.role in "TG" else span
+
+
+_ON = frozenset({"then", "next", "afterwards", "finally", "lastly"})
 
 
 def _mark(text: str) -> str:
@@ -276,6 +312,17 @@ def _led(wishes: list[Wish]) -> list[Wish]:
             continue
         found.append(wish)
     return found
+
+
+def _in_order(wishes: list[Wish]) -> list[Wish]:
+    """With where to begin first and where to end last: "finish at the desk but start at the gate"."""
+    turn = {"start": 0, "begin": 0, "finish": 2, "end": 2}
+    places = [wish for wish in wishes if wish.frame == "GO" and wish.verb.split(" ")[0] in turn]
+    if not places or any(wish.frame != "GO" or wish.negated for wish in wishes):
+        return wishes
+    named = [word for wish in places for f in wish.fillers for word in f.words[-1:]]
+    kept = [w for w in wishes if w in places or not any(f.words[-1] in named for f in w.fillers)]
+    return sorted(kept, key=lambda wish: turn.get(wish.verb.split(" ")[0], 1))
 
 
 _HOW = frozenset({"how", "the", "way"})

@@ -27,6 +27,8 @@ _BEING = frozenset({"that", "who", "which", "is", "are", "there", "'s", "do", "d
 _JOINED = 2
 """So many marks and words at most stand between what is listed: ", and"."""
 _FROM_THERE = frozenset({"from", "there", "here", "on"})
+_POINTING = frozenset({"to", "it", "there", "that", "one"})
+_HERE = frozenset({"here", "there", "where", "you", "are"})
 _TAKING = frozenset({"take", "grab", "pick", "collect", "lift"})
 
 
@@ -40,7 +42,7 @@ def retyped(wish: Wish, lexicon: Lexicon) -> Wish:
         wish = _met(wish, lexicon)
     if wish.frame == "ANSWER":
         return replace(wish, fillers=tuple(one for f in wish.fillers for one in _asked_by(f, lexicon)))
-    if wish.frame == "WAIT" and wish.has("L") and not wish.has("DU"):
+    if wish.frame == "WAIT" and not wish.has("DU") and any({*f.words} - _HERE for f in wish.all("L")):
         return replace(_renamed(wish, "L", "G", list(wish.all("L"))), frame="GO")  # "stop at the gate"
     if wish.frame == "FOLLOW" and not wish.has("T"):  # "trail behind Kim"
         behind = [f for f in wish.all("L") if f.words[0] in _AFTER and len(f.words) > 1]
@@ -49,10 +51,7 @@ def retyped(wish: Wish, lexicon: Lexicon) -> Wish:
     if wish.frame == "GUIDE" and not wish.has("T"):
         return _renamed(wish, "R", "T", list(wish.all("R")))
     if wish.frame == "GO":
-        listed = [f for f in wish.all("T") if any(0 <= f.start - g.end <= _JOINED for g in wish.all("G"))]
-        wish = _renamed(wish, "T", "G", listed if wish.has("G") else [*wish.all("T")])
-        here = [f for f in wish.all("S") if {*f.words} <= _FROM_THERE]  # that is where it is then
-        return _gone(replace(wish, fillers=tuple(f for f in wish.fillers if f not in here)))
+        return _to_where(wish)
     if wish.frame == "TURN" and not wish.has("N"):
         direction = next((direction_of(filler.words, lexicon) for filler in wish.all("H")), None)
         return replace(wish, frame="FACE") if wish.has("TG") or is_compass(direction or "") else wish
@@ -62,6 +61,17 @@ def retyped(wish: Wish, lexicon: Lexicon) -> Wish:
     if wish.frame == "BRING" and not wish.has("RG") and wish.verb.split(" ")[0] in _TAKING:
         return replace(wish, frame="TAKE")
     return wish
+
+
+def _to_where(wish: Wish) -> Wish:
+    """With what is named as its goal, which "to it" or "there" behind it only repeats."""
+    pointing = [f for f in wish.all("G") if {*f.words} <= _POINTING]
+    if pointing and any(thing.start < f.start for thing in wish.all("T") for f in pointing):
+        wish = replace(wish, fillers=tuple(f for f in wish.fillers if f not in pointing))
+    listed = [f for f in wish.all("T") if any(0 <= f.start - g.end <= _JOINED for g in wish.all("G"))]
+    wish = _renamed(wish, "T", "G", listed if wish.has("G") else [*wish.all("T")])
+    here = [f for f in wish.all("S") if {*f.words} <= _FROM_THERE]  # that is where it is then
+    return _gone(replace(wish, fillers=tuple(f for f in wish.fillers if f not in here)))
 
 
 def _asked_by(filler: Filler, lexicon: Lexicon) -> tuple[Filler, ...]:

@@ -58,7 +58,8 @@ _WISHING: Final = re.compile(
     r"would like|'d like|asking for|ask(?:s|ed)? for|wait(?:s|ing)? for you|can (?:wait|go)|not sure|"
     r"i (?:think|guess|suppose|doubt)|maybe|perhaps|might|somewhere|nobody|neither|please|could you|"
     r"comes? (?:before|after|first|last)|(?:is|are|isn't|aren't|not) to be|due (?:for|a)|ready (?:for|to be)|"
-    r"gets? \w+ed(?! (?:at|every|on|by)\b)|the (?:one|thing|next|first|last) to|your next|next stop|"
+    r"gets? \w+ed(?! (?:at|every|on|by)\b)|"
+    r"the (?:(?:next|first|last|only) )?(?:one|thing|next|first|last|place|stop) to|your next|next stop|"
     r"says|said|reported|told (?:me|us))\b"
 )
 """What may be a wish, a guess or hearsay: nothing that is so."""

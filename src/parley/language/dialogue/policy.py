@@ -13,6 +13,7 @@ from parley.language.base import Situation
 from parley.language.builtin.decision import Answer, Ask, Decision, Do, Edit, Forget, Remember, Told
 from parley.language.builtin.facts import Place
 from parley.language.builtin.lexicon import Lexicon, lemmas
+from parley.language.builtin.lexicon import lexicon as lexicon_of_words
 from parley.language.builtin.own import is_promised
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.reply import said as words_for
@@ -303,13 +304,22 @@ def afterwards(
             return Answer("You are welcome.")
         leaves = bare.startswith(("bye", "goodbye", "good night", "see you"))
         return Answer("Goodbye." if leaves else "Hello. What can I do for you?")
-    if (
-        isinstance(made, Ask | Answer)
-        and not offers
-        and (fact := other_fact(situation, reading, bare)) is not None
-    ):
-        return Remember((fact,))
-    return made
+    if offers or not isinstance(made, Ask | Answer | Remember):
+        return made
+    return _of_what_is_told(made, situation, reading, tokens, lexicon)
+
+
+def _of_what_is_told(
+    made: Decision, situation: Situation, reading: Reading, tokens: Sequence[Token], lexicon: Lexicon
+) -> Decision:
+    """What is made of something that is told: it may be about the plan, or worth keeping."""
+    ordered = any(wish.act == "order" for wish in reading.wishes)
+    if not ordered and (asked := _superfluous(situation, tokens, lexicon)) is not None:
+        return asked
+    if isinstance(made, Remember):
+        return made
+    fact = other_fact(situation, reading, plain(tokens, (situation.robot,)))
+    return Remember((fact,)) if fact is not None and not _is_robots_work(fact.text, situation) else made
 
 
 _INTRODUCED: Final = re.compile(
@@ -390,8 +400,36 @@ def no_facts(told: tuple[Told, ...], situation: Situation, *, beside: bool = Fal
     """The facts of a message, unless it is a stop, an order to go on, a question or an answer."""
     bare = plain(tokenize(situation.message), (situation.robot,))
     kept = tuple(fact for fact in told if fact.is_rule or not is_wish(fact.text))
+    kept = tuple(fact for fact in kept if fact.is_rule or not _is_robots_work(fact.text, situation))
     kept = () if is_report(situation.message) else kept
     return kept if kept and worth_keeping(situation, bare, beside=beside) else ()
+
+
+def _is_robots_work(text: str, situation: Situation) -> bool:
+    """Whether it is said what a robot does, and not where it is: "Rex takes bay 2" is an order."""
+    first, _, rest = text.partition(" ")
+    does = rest.partition(" ")[0].lower()
+    deeds = lexicon_of_words().frames_of([does], []) - {"BELOC", "BECAT", "WAIT"} if does[-1:] == "s" else {}
+    return bool(deeds) and first.lower() in {name.lower() for name in situation.robots}
+
+
+_DONE: Final = re.compile(
+    r"\b(?:already|done|superfluous|unnecessary|redundant|pointless|can wait|no longer needed|not needed|"
+    r"taken care of|(?:somebody|someone) else (?:will|can|does|did|has))\b",
+    re.IGNORECASE,
+)
+
+
+def _superfluous(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon) -> Ask | None:
+    """Whether to leave out what is planned, where it is told that it is done or need not be done."""
+    if _DONE.search(situation.message) is None or situation.message.rstrip().endswith("?"):
+        return None
+    planned = {thing.id for visit in visits(situation) for thing in visit.things}
+    things = [one.things[0] for one in named(tokens, situation.objects, lexicon) if len(one.things) == 1]
+    names = [thing.description for thing in things if thing.id in planned]
+    if len(names) != 1:
+        return None
+    return Ask(f"Shall I leave out the {names[0]}?", (f"leave out the {names[0]}",))
 
 
 def _edit(change: Change, situation: Situation, do: Do | None = None) -> Decision:
