@@ -7,9 +7,10 @@ from dataclasses import replace
 import pytest
 
 from parley.language.base import Situation
-from parley.language.builtin.decision import Answer, Ask, Decision, Do, Remember
+from parley.language.builtin.decision import Answer, Ask, Decision, Do, Forget, Remember
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.messages.chat import ActionCall
+from parley.messages.memory import MemoryEntry
 from parley.messages.pvf import Parameter
 from parley.world.object_map import MapObject
 from tests.language.builtin.worlds import CATALOGUE, action, situation
@@ -88,12 +89,6 @@ def test_an_exception_holds_for_an_action_of_ones_own_too() -> None:
     assert isinstance(made, Ask) or "bay 2" not in [v for d in made.deeds for v in d.arguments.values()]  # type: ignore[union-attr]
 
 
-def test_a_verb_alone_makes_no_action_of_ones_own_of_going_somewhere() -> None:
-    swap = (*CATALOGUE, action("swap", "Goes to a press and swaps its ink.", "press"))
-    made = decided("the leaflets are done, then you can go to the depot", catalogue=swap)
-    assert not isinstance(made, Do) or [deed.skill.action.name for deed in made.deeds] == ["drive_to"]
-
-
 @pytest.mark.parametrize(
     "said",
     [
@@ -134,3 +129,12 @@ def test_what_is_planned_and_done_by_others_is_asked_about(said: str) -> None:
 
 def test_a_question_what_it_can_do_is_answered() -> None:
     assert isinstance(decided("Can you open doors?"), Answer)
+
+
+def test_who_forgets_where_a_thing_is_forgets_nothing_else() -> None:
+    known = [
+        MemoryEntry(name="chest_location", data="the chest is in the silo", info="Where the chest is"),
+        MemoryEntry(name="wrench_location", data="the wrench is in the chest", info="Where the wrench is"),
+    ]
+    made = decided("Forget where the chest is.", memory=tuple(known))
+    assert isinstance(made, Forget) and made.names == ("chest_location",)

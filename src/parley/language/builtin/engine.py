@@ -138,7 +138,7 @@ class BuiltinLanguage:
             self._skills = SkillTable(shipped_tagger(), self._lexicon)
             self._own = OwnActions(shipped_tagger(), self._lexicon)
         skills = self._skills.of(situation.catalogue)
-        framed = {skill.action.name: frame for frame, skill in skills.items()}
+        framed = frozenset(skill.action.name for skill in skills.values())
         own, known = self._own.applied, situation.catalogue
         parts = tuple(
             replace(one, reading=own(one.parse, one.reading, known, framed))

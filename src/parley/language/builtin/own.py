@@ -11,7 +11,7 @@ import itertools
 import json
 import re
 from collections import OrderedDict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -98,7 +98,7 @@ class OwnActions:
         self._known: OrderedDict[str, tuple[tuple[_Known, ...], Matrix]] = OrderedDict()
 
     def applied(
-        self, parse: Parse, reading: Reading, catalogue: Sequence[ActionInfo], framed: Mapping[str, str]
+        self, parse: Parse, reading: Reading, catalogue: Sequence[ActionInfo], framed: frozenset[str]
     ) -> Reading:
         """A reading in which orders that mean an action of the robot's own are such.
 
@@ -106,7 +106,7 @@ class OwnActions:
             parse: The message.
             reading: What it says, by frames.
             catalogue: What the robot can do.
-            framed: The frames of the actions that are known ones, by their names.
+            framed: Names of the actions that are known frames.
         """
         known, vectors = self._prepared(catalogue)
         if not known:
@@ -165,7 +165,7 @@ class OwnActions:
         clause: Clause,
         known: Sequence[_Known],
         vectors: Matrix,
-        framed: Mapping[str, str],
+        framed: frozenset[str],
         reading: Reading,
     ) -> OwnAction | None:
         """The action that an order means; None if it means none, or one that its frame leads to."""
@@ -183,11 +183,7 @@ class OwnActions:
         spoken = {*clause.verb, *(word for filler in clause.fillers for word in filler.words)}
         spoken = {form for word in spoken for form in (stem(word), *lemmas(word))}
         told = [rank for rank in ranked if rank.item.named <= spoken]
-        # A verb alone says nothing against a frame: "go to the desk" beside "goes to a printer and ...".
-        inside = {wish.frame for wish in reading.wishes if clause.start <= wish.start < clause.end}
-        alone = bool(told) and not told[0].shared and bool(inside & {*framed.values()})
-        outdone = agreed and (alone or (bool(told) and told[0].item.action.name in framed))
-        if told and self._is_sure(told) and not outdone:
+        if told and self._is_sure(told) and not (agreed and told[0].item.action.name in framed):
             best = told[0]
             return OwnAction(best.item.action, best.filled.fills, best.item.slots, True, best.filled.missing)
         if not _is_framed(clause, reading, other_than="DO"):
@@ -228,7 +224,7 @@ class OwnActions:
         carrying = {stem(word) for word in words if word not in small and word.isalpha()}
         return len(carrying & item.words) / len(carrying) if carrying else 0.0
 
-    def _phrased(self, clause: Clause, item: _Known, framed: Mapping[str, str]) -> OwnAction | None:
+    def _phrased(self, clause: Clause, item: _Known, framed: frozenset[str]) -> OwnAction | None:
         """The action, if just these words are one of its phrases or examples."""
         if not clause.may_order:
             return None

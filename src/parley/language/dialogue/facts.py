@@ -260,4 +260,6 @@ def forgotten(situation: Situation, bare: str) -> tuple[MemoryEntry, ...] | None
             )
         }
     ]
+    if "forget where " in bare:  # and not what else is there
+        hits = [one for one in hits if wanted <= {*map(stem, one.name.removesuffix("_location").split("_"))}]
     return tuple(hits)

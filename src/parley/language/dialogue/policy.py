@@ -427,9 +427,10 @@ def _superfluous(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon
     planned = {thing.id for visit in visits(situation) for thing in visit.things}
     things = [one.things[0] for one in named(tokens, situation.objects, lexicon) if len(one.things) == 1]
     names = [thing.description for thing in things if thing.id in planned]
-    if len(names) != 1:
+    if not names:
         return None
-    return Ask(f"Shall I leave out the {names[0]}?", (f"leave out the {names[0]}",))
+    what = f"leave out the {' and the '.join(names)}"
+    return Ask(f"Shall I {what}?", (what,))
 
 
 def _edit(change: Change, situation: Situation, do: Do | None = None) -> Decision:
