@@ -15,7 +15,6 @@ from parley.language.builtin.checks import whole_names
 from parley.language.builtin.decision import Answer, Ask, Control, Decision, Deed, Do, Remember, Told
 from parley.language.builtin.deeds import Builder
 from parley.language.builtin.facts import places, rule_of, told_of
-from parley.language.builtin.fillers import Filler
 from parley.language.builtin.lexicon import Lexicon, stem
 from parley.language.builtin.listings import listing
 from parley.language.builtin.planner import Planner, contradicted, orders_of
@@ -23,6 +22,7 @@ from parley.language.builtin.reading import Reading
 from parley.language.builtin.saying import which_one
 from parley.language.builtin.sights import sight_asked_for
 from parley.language.builtin.skills import Skills
+from parley.language.builtin.spans import Filler
 from parley.language.builtin.structure import Part, Unclear, arranged
 from parley.language.builtin.tokens import Token, spoken, tokenize
 from parley.language.builtin.wishes import Wish

@@ -8,7 +8,6 @@ from parley.language.builtin.amounts import Amount, amount_of
 from parley.language.builtin.checks import Look, check
 from parley.language.builtin.decision import Ask, Deed
 from parley.language.builtin.doing import Doing, slot_of
-from parley.language.builtin.fillers import Filler
 from parley.language.builtin.grounding import WITHIN, Value, is_somebody
 from parley.language.builtin.handling import HANDLED
 from parley.language.builtin.judging import asked
@@ -16,6 +15,7 @@ from parley.language.builtin.lexicon import lemmas, stem
 from parley.language.builtin.own_action import OwnAction
 from parley.language.builtin.owned import owned
 from parley.language.builtin.saying import with_article
+from parley.language.builtin.spans import Filler
 from parley.language.builtin.speaking import followed, spoken
 from parley.language.builtin.structure import Part
 from parley.language.builtin.things import Mention, head_of, link
@@ -48,7 +48,7 @@ class Builder(Doing):
         times = self._strange(wish) or self.times(wish)
         if isinstance(times, Ask):
             return times
-        wish = self._placed(self._told_apart(wish))
+        wish = self._placed(wish)
         thing, handles = wish.one("T"), wish.frame in (*HANDLED, "BRING")
         spoken_of = thing is not None and {*thing.words} <= self.lexicon.classes["pronouns"]
         if handles and spoken_of and self.in_hand is not None:
@@ -107,18 +107,6 @@ class Builder(Doing):
             {*thing.class_name.split(), *thing.description.lower().split()} if thing is not None else set()
         )
         return any(is_word_for(word, "place") for word in words)
-
-    def _told_apart(self, wish: Wish) -> Wish:
-        """With the place behind a thing as a part of its name, where that says which of several is meant."""
-        thing, place = wish.one("T"), wish.one("L")
-        if thing is None or place is None or thing.end != place.start:
-            return wish
-        words, objects = (*thing.words, *place.words), self.situation.objects
-        alone = link(thing.words, thing.head, objects, self.lexicon)
-        if alone.kind != "several" or link(words, thing.head, objects, self.lexicon).kind != "one":
-            return wish
-        both = replace(thing, end=place.end, words=words, said="")
-        return replace(wish, fillers=tuple(both if f is thing else f for f in wish.fillers if f is not place))
 
     def _placed(self, wish: Wish) -> Wish:
         """With the place of who or what no map holds as a role of its own: "the cup on the desk"."""

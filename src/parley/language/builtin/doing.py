@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 from parley.language.builtin.checks import seen_at
 from parley.language.builtin.decision import Ask, Deed
-from parley.language.builtin.fillers import Filler
 from parley.language.builtin.grounding import Value
 from parley.language.builtin.handling import Handling
 from parley.language.builtin.lexicon import stem
 from parley.language.builtin.skills import Skill
+from parley.language.builtin.spans import Filler
 from parley.language.builtin.ways import typed
 from parley.language.builtin.wishes import Wish
 from parley.umrf.kinds import parameters_of, words_of_name

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from parley.language.builtin.decision import Ask
-from parley.language.builtin.fillers import Filler
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.reading import Reading
+from parley.language.builtin.spans import Filler
 from parley.language.builtin.wishes import Wish
 
 __all__ = ["AGREED", "ALONE", "doubt", "may_be_offered"]

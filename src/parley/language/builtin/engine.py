@@ -21,13 +21,12 @@ from parley.language.builtin import pictures
 from parley.language.builtin.clauses import Clause, clauses
 from parley.language.builtin.deciding import decide
 from parley.language.builtin.decision import Answer, Ask, Decision, Do
-from parley.language.builtin.explaining import explained
 from parley.language.builtin.lexicon import lexicon, stem
 from parley.language.builtin.own import OwnActions, is_promised
 from parley.language.builtin.own_words import own_words
 from parley.language.builtin.reading import Reading, read
 from parley.language.builtin.recovery import Repairer
-from parley.language.builtin.reply import to_chat
+from parley.language.builtin.reply import explained, to_chat
 from parley.language.builtin.skills import SkillTable
 from parley.language.builtin.spans import Parse
 from parley.language.builtin.steady import steadily

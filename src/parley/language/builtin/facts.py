@@ -7,10 +7,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from parley.language.builtin.decision import Told
-from parley.language.builtin.fillers import Filler
 from parley.language.builtin.lexicon import Lexicon, stem
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.saying import with_article
+from parley.language.builtin.spans import Filler
 from parley.language.builtin.structure import Part
 from parley.language.builtin.things import noun_phrase
 from parley.language.builtin.wishes import Wish

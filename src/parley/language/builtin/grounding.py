@@ -9,12 +9,12 @@ from parley.language.base import Situation
 from parley.language.builtin.amounts import Amount, amount_of, direction_of
 from parley.language.builtin.decision import Ask, Deed, Note
 from parley.language.builtin.facts import Place, known_place
-from parley.language.builtin.fillers import Filler
 from parley.language.builtin.lexicon import Lexicon, stem, stems
 from parley.language.builtin.listings import told_set
 from parley.language.builtin.saying import as_said, which_one, with_article
 from parley.language.builtin.sets import Group, apart, group, without
 from parley.language.builtin.skills import Skills
+from parley.language.builtin.spans import Filler
 from parley.language.builtin.spatial import beside, picked
 from parley.language.builtin.things import Mention, link, noun_phrase
 from parley.language.builtin.tokens import Token, point_of, tokenize
@@ -212,11 +212,6 @@ class Grounder:
         each = {*filler.words} <= _BACK_TO | self.lexicon.classes["prepositions"] | {"each", "of", "one"}
         if self.bound is not None and (mention.kind == "pronoun" or each or self.names_set(filler)):
             return self.bound
-        if mention.kind == "pronoun" and filler.words[0] in _BESIDE and self.last_thing is not None:
-            near = self._beside(filler, self.last_thing.things)
-            return (
-                Value(near.description, with_article(near.description), (near,)) if near else self.last_thing
-            )
         if mention.kind == "pronoun" and {*filler.words} <= _SEVERAL:
             return self._those(filler)
         if mention.kind == "pronoun":
@@ -486,7 +481,6 @@ def _at_point(filler: Filler) -> Value | None:
 
 WITHIN = frozenset({"in", "on", "inside", "within", "at", "from"})
 """Where something is; "by" and "between" tell which one it is."""
-_BESIDE = frozenset({"next", "near", "beside", "by", "behind", "opposite", "close"})
 _SHOWN = 3
 """So many things are named to whoever asked for one that nobody knows."""
 _SEVERAL = frozenset({"them", "these", "those", "they"})

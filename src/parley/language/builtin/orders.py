@@ -6,10 +6,9 @@ import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from parley.language.builtin.fillers import Filler
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.reading import Reading
-from parley.language.builtin.spans import Parse
+from parley.language.builtin.spans import Filler, Parse
 
 __all__ = ["Clause", "clauses_of"]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from parley.language.builtin.amounts import Amount
-from parley.language.builtin.fillers import Filler
 from parley.language.builtin.filling import Fill, Slots
+from parley.language.builtin.spans import Filler
 from parley.messages.status import ActionInfo
 from parley.umrf.kinds import words_of_name
 

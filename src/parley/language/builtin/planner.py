@@ -11,8 +11,8 @@ from parley.language.builtin.checks import Look
 from parley.language.builtin.decision import Ask, Deed, Note
 from parley.language.builtin.deeds import Builder
 from parley.language.builtin.doubts import doubt, may_be_offered
-from parley.language.builtin.fillers import Filler
 from parley.language.builtin.reading import Reading
+from parley.language.builtin.spans import Filler
 from parley.language.builtin.structure import If, Node, Orders, Part
 from parley.language.builtin.wishes import Wish
 from parley.language.dialogue.mentions import named

@@ -7,10 +7,9 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from parley.language.builtin.amounts import amount_of, direction_of
-from parley.language.builtin.fillers import Filler
 from parley.language.builtin.lexicon import Lexicon, lemmas
 from parley.language.builtin.retyping import looks_here, retyped
-from parley.language.builtin.spans import Parse, Span, Verb
+from parley.language.builtin.spans import Filler, Parse, Span, Verb
 from parley.language.builtin.wishes import Wish, Witness
 
 __all__ = ["Reading", "read"]

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from parley.language.builtin.amounts import amount_of, direction_of, is_compass
-from parley.language.builtin.fillers import Filler
 from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.spans import Filler
 from parley.language.builtin.wishes import Wish
 
 __all__ = ["BACKING", "looks_here", "retyped"]

@@ -12,7 +12,7 @@ from parley.language.builtin.labels import ACT_TAGS, FRAME_TAGS, MODE_TAGS, MOVE
 from parley.language.builtin.tagger import Matrix, Scores
 from parley.language.builtin.tokens import Token
 
-__all__ = ["Parse", "Span", "Verb", "parse"]
+__all__ = ["Filler", "Parse", "Span", "Verb", "parse"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,3 +184,23 @@ def _spans(
         best = int(np.argmax(ways))
         spans.append(Span(role, start, end, head, best - 1 if best else None, share))
     return tuple(spans)
+
+
+@dataclass(frozen=True, slots=True)
+class Filler:
+    """What fills a role: words of the message, by their places."""
+
+    role: str
+    start: int
+    end: int
+    head: int
+    words: tuple[str, ...]
+    """From start to end, in small letters."""
+    share: float = 1.0
+    said: str = ""
+    """As it was said."""
+
+    @property
+    def text(self) -> str:
+        """Its words, as they were said."""
+        return self.said or " ".join(self.words)

@@ -7,10 +7,9 @@ from dataclasses import fields, replace
 
 import numpy as np
 
-from parley.language.builtin.folding import folded
+from parley.language.builtin.folding import folded, requested
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.reading import Reading, read
-from parley.language.builtin.requests import requested
 from parley.language.builtin.spans import Parse, parse
 from parley.language.builtin.tagger import Scores, Tagger
 from parley.language.builtin.tokens import Token

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from parley.language.builtin.fillers import Filler
 from parley.language.builtin.own_action import OwnAction
+from parley.language.builtin.spans import Filler
 
 __all__ = ["Wish", "Witness"]
 
