@@ -106,15 +106,10 @@ class Planner:
             if not may_be_offered(reading, wishes, self.builder.lexicon):
                 return unsure
             self.builder.doubts = (unsure, " ".join(reading.left_over) or "…")
-        whole = self._all_so_often(wishes)
-        if isinstance(whole, Ask):
-            return whole
-        wishes, often = whole
         limited = self._limited(node, wishes)
         if isinstance(limited, Ask):
             return limited
         wishes, times, before = limited
-        times *= often
         unused = self._heard(reading, wishes)
         if unused is not None:
             return unused
@@ -170,33 +165,12 @@ class Planner:
         about = [{*f.words} for f in behind if f.role in "TGLSRK"]
         return not wishes or any(words & _SPOKEN_OF for words in about) or len(about) < len(wishes)
 
-    def _all_so_often(self, wishes: tuple[Wish, ...]) -> tuple[tuple[Wish, ...], int] | Ask:
-        """Several wishes that are all done so often, one round after the other; one alone keeps its count."""
-        often = {wish.all("O") for wish in wishes}
-        if len(wishes) < 2 or often == {()}:
-            return wishes, 1
-        if all(wish.frame in _IN_PLACE for wish in wishes if wish.has("O")):
-            return wishes, 1
-        times = self.builder.times(wishes[0])
-        if len(often) > 1 or isinstance(times, Ask):
-            return times if isinstance(times, Ask) else Ask("What of it shall I do so often?")
-        without = (replace(w, fillers=tuple(f for f in w.fillers if f.role != "O")) for w in wishes)
-        return tuple(without), times
-
     def _as_ordered(self, part: Part) -> Reading:
         """What is said of an order of time, as what is wanted: "after visiting the yard"."""
         reading = part.reading
         wishes = tuple(replace(wish, act="order") for wish in reading.wishes if wish.frame not in NO_DEED)
         if not wishes:
             words = part.low
-            done = next(
-                (at for at, word in enumerate(words) if word in self.builder.lexicon.classes["seen"]), None
-            )
-            if done is not None and done + 1 < len(words):
-                thing = Filler("T", done + 1, len(words), len(words) - done - 2, words[done + 1 :])
-                return Reading(
-                    frozenset({"order"}), (Wish("LOOK", done, words[done], (thing,), 1.0, "agrees"),), (), ()
-                )
             if words[:1] and words[0] in _WHO_SAYS:  # "before I tell you" names no place
                 return replace(reading, left_over=words)
             size = next((at + 1 for at in reversed(range(len(words))) if words[at].isalnum()), 0)
@@ -310,9 +284,6 @@ class Planner:
         times = int(amount.value) if amount else 0
         if not 1 <= times <= 10:
             return Ask(f"I cannot do that {text} on end. How many times shall I do it?")
-        own = wishes[0].own.done(times) if len(wishes) == 1 and wishes[0].own else None
-        if own is not None:
-            return (replace(wishes[0], own=own),), 1
         if len({wish.frame for wish in wishes}) > 1 and wishes[-1].frame in _IN_PLACE:
             often = Filler("O", 0, len(words), 0, words)  # "go there and honk twice"
             return (*wishes[:-1], replace(wishes[-1], fillers=(*wishes[-1].fillers, often))), 1
