@@ -103,6 +103,12 @@ def test_parts_are_said_one_by_one_and_foreign_words_stay() -> None:
             "Teen nii: mine kohta box ja siis oota 5 sekundit.",
         ),
         ("Which one do you mean: the box or the gate?", "Millist sa mõtled: box või gate?"),
+        (
+            "I was to follow Ada, and that did not work: I do not see Ada, so I cannot follow. I go on.",
+            "Pidin tegema nii: järgne: Ada, ja see ei õnnestunud: Ma ei näe: Ada, nii et ma ei saa järgneda. "
+            "Jätkan.",
+        ),
+        ("I can see a red box and an oak gate.", "Näen red box ja oak gate."),
         ("Several places fit “it”: red box and gate.", "Mitu kohta sobib, „it“: red box ja gate."),
         (
             "I know that because you told me yesterday at 9:05.",

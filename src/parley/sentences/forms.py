@@ -27,6 +27,8 @@ _TELLING: Final = 12
 """So many letters of its own make a form certain; with fewer it may only join two parts."""
 _SHORT: Final = 4
 """With fewer it is none at all by itself."""
+_ARTICLES: Final = ("a {thing}", "an {thing}")
+"""Short as they are, what stands behind them is a name."""
 
 
 def is_own(template: str, name: str) -> bool:
@@ -79,7 +81,7 @@ class _Form:
             own=own,
             other=other,
             weight=weight,
-            joins=(weight < _SHORT and not own)
+            joins=(weight < _SHORT and not own and template not in _ARTICLES)
             or (weight < _TELLING and not pieces[0] and not pieces[-1].strip(".?!:")),
         )
 
