@@ -465,6 +465,24 @@ def test_whether_a_plan_stands_is_told_by_its_engine_while_who_plans_hangs() -> 
     assert plan_of(book).state == "running", "who plans says so later"
 
 
+def test_how_far_a_plan_is_is_told_by_its_engine_while_who_plans_hangs() -> None:
+    def states() -> tuple[str, ...]:
+        return (plan_of(book).state, *(one.state for one in plan_of(book).steps))
+
+    book, _ = plans()
+    rest = step("Look", node="Look_1")
+    book.on_update(update(step("MoveTo", "running", "MoveTo_0"), rest))
+    book.on_event(event("MoveTo_0", "FINISHED"))
+    book.on_event(event("Look_1", "RUNNING"))
+    assert states() == ("running", "finished", "running")
+    book.on_event(event("Look_1", "ERROR", message='{"message": "It is dark."}'))
+    book.on_event(event("", "HALTED"))
+    assert states() == ("held", "finished", "failed")
+    assert plan_of(book).steps[1].message == "It is dark."
+    book.on_update(update(step("MoveTo", "finished", "MoveTo_0"), step("Look", "waiting", "Look_1")))
+    assert states()[1:] == ("finished", "waiting"), "who plans says so later"
+
+
 def test_graphs_that_others_started_are_watched() -> None:
     book, _ = plans()
     for number in range(6):

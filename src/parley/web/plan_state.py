@@ -51,6 +51,8 @@ class PlanBook:
         self._graphs: dict[tuple[str, str], GraphTold] = {}
         self._since: dict[str, GraphShown] = {}
         """What its engine told of each robot's plan since the planner last told another state of it."""
+        self._news: dict[str, set[str]] = {}
+        """The same of its steps: those of which it told a transition."""
         self._past: Latest[tuple[str, str], None] = Latest(PAST_KEPT)
         """Graphs of plans that were replaced: what comes late about them is dropped."""
         self.decided: set[str] = set()
@@ -68,6 +70,10 @@ class PlanBook:
             self._drop(robot, before.graph_name)
         if before is None or (before.graph_name, before.state) != (update.graph_name, update.state):
             self._since.pop(robot, None)
+        told = {(step.node, step.state) for step in before.steps} if before is not None else set()
+        self._news.get(robot, set()).difference_update(
+            step.node for step in update.steps if (step.node, step.state) not in told
+        )
         for proposal in [p for p in self.proposals.values() if p.robot == robot]:
             waits = update.waits is None or proposal.id in update.waits
             if update.state == "idle" or not waits or proposal.id in self.decided:
@@ -159,6 +165,7 @@ class PlanBook:
         self._updates.pop(robot, None)
         self._free_since.pop(robot, None)
         self._since.pop(robot, None)
+        self._news.pop(robot, None)
 
     # -- what engines tell -----------------------------------------------------------------------------
 
@@ -174,6 +181,8 @@ class PlanBook:
             if event.kind == "graph":
                 self._since[event.actor] = graph.state
                 self._show_plan(update, update)
+            elif event.kind == "node":
+                self._news.setdefault(event.actor, set()).add(event.node)
             self._show_step(update, event.node)
         else:
             self._show_graph(*key, graph)
@@ -206,8 +215,8 @@ class PlanBook:
         )
         state: Literal["idle", "awaiting_approval", "running", "paused", "held", "ended"] = update.state
         since = self._since.get(update.target)
-        if state in ("running", "paused") and since in ("running", "paused"):
-            state = since  # who plans may hang while people let the robot stand and go on
+        if (state == "running" and since) or (state == "paused" and since in ("running", "paused")):
+            state = since  # who plans may hang while people let the robot stand and go on, or a step fails
         shown = self.views.get(key)
         self._put(
             PlanView(
@@ -237,9 +246,9 @@ class PlanBook:
     def _planned(self, update: PlanUpdate, number: int, told: NodeTold | None) -> StepView:
         step = update.steps[number]
         key = step.node or f"step-{number}"
-        view = self._step(
-            update.target, key, step.action, _state(step.state, told), told or NodeTold(), step.label
-        )
+        is_newer = step.node in self._news.get(update.target, ())
+        state = _state(step.state, told, is_newer=is_newer)
+        view = self._step(update.target, key, step.action, state, told or NodeTold(), step.label)
         return view.model_copy(update={"planned": step.id})
 
     def _show_graph(self, robot: str, name: str, graph: GraphTold) -> None:
@@ -300,9 +309,12 @@ class PlanBook:
         self._emit(ProposalGone(seq=0, id=proposal_id))
 
 
-def _state(planned: StepState, node: NodeTold | None) -> StepState:
-    """The planner's word counts; only that a step is just being stopped is known to the engine alone."""
-    return "stopping" if node is not None and node.state == "stopping" and planned not in OVER else planned
+def _state(planned: StepState, node: NodeTold | None, *, is_newer: bool) -> StepState:
+    """The planner's word counts, but for what its engine told since, or alone knows: it is being stopped."""
+    if node is None or planned in OVER:
+        return planned
+    went_on = is_newer and (node.state in OVER or (planned == "queued" and node.state == "running"))
+    return node.state if went_on or node.state == "stopping" else planned
 
 
 def _not_begun(update: PlanUpdate) -> list[tuple[str, ActionCall]]:
