@@ -22,6 +22,7 @@ from parley.messages.principal import Principal, person
 from parley.messages.pvf import Parameter
 from parley.messages.ros import ChatRequest
 from parley.messages.status import (
+    ActionInfo,
     ActorStatus,
     GraphEvent,
     PlanDecision,
@@ -122,6 +123,15 @@ async def test_an_order_stands_in_the_log_from_the_words_to_the_end() -> None:
             "Kim",
             "d",
         )
+
+
+async def test_a_wish_stands_in_the_log_in_the_words_of_the_robots_own_plans() -> None:
+    known = ActionInfo(name=GO.name, inputs={"target": "string"}, phrases=("go to {target}",))
+    async with rig() as r:
+        await r.tell(topics.ACTOR_STATUS, ActorStatus(actor="Ada", catalogue=(known,)))
+        await r.tell(topics.CHAT_ACTION, ChatAction(queue=(GO,), targets=("Ada",), by=ENGINE))
+        (entry,) = await r.log(robot="Ada")
+        assert told(entry) == "The language engine builtin wants this from Ada: Go to “box”."
 
 
 async def test_who_holds_a_robot_while_words_are_read_releases_no_stop() -> None:

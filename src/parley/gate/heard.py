@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterable, Sequence
 from typing import Any, Final
 
+from parley.gate.cards import labels_of, lines_of
 from parley.gate.ruling import EFFECT_OF
 from parley.gate.table import Effect, verdict
 from parley.gate.work_time import WorkTime
@@ -19,6 +20,7 @@ from parley.messages.chat import ActionCall, ChatAction, ChatInput, Press
 from parley.messages.memory import AddToMemory, MemoryEvent
 from parley.messages.principal import Principal
 from parley.messages.status import (
+    ActionInfo,
     ActorStatus,
     GraphEvent,
     PlanDecision,
@@ -61,6 +63,7 @@ class Heard:
         self._stops: Latest[str, StopCommand] = Latest()
         self._presses: Latest[str, None] = Latest()
         self._beats: Latest[str, int] = Latest()
+        self._catalogues: Latest[str, Sequence[ActionInfo]] = Latest()
 
     def _is_repeat(self, press: Press | None) -> bool:
         """Whether a button's press was heard before: it is sent until somebody takes it."""
@@ -104,10 +107,15 @@ class Heard:
             for command in order.system_cmd
         ]  # fmt: skip
         for robot in order.targets if order.queue else ():
-            detail = {"labels": labels(order.queue), **asked}
+            detail = {"labels": self._wished(robot, order.queue), **asked}
             self._orders[robot] = {"by": order.by, "detail": asked, "labels": detail["labels"]}
             events.append(AuditEvent(effect=effect, by=order.by, robot=robot, outcome="asked", detail=detail))
         return events
+
+    def _wished(self, robot: str, steps: Sequence[ActionCall]) -> list[str]:
+        """What steps would do, in the words that people read of this robot's plans."""
+        known = self._catalogues.get(robot)
+        return list(lines_of(steps, labels_of(steps, known), known)) if known else labels(steps)
 
     def on_plan(self, told: PlanUpdate | PlanProposal) -> list[AuditEvent]:
         """A plan that waits for a yes, or one that is over: its graph only halts, so that it could go on."""
@@ -166,6 +174,8 @@ class Heard:
 
     def on_status(self, status: ActorStatus, unix_ms: int) -> list[AuditEvent]:
         """A robot is heard of: if that is after a silence, what it did meanwhile is not known."""
+        if status.catalogue:
+            self._catalogues[status.actor] = status.catalogue
         before = self._beats.pop(status.actor, unix_ms)
         if status.state != "leaving":
             self._beats[status.actor] = unix_ms
