@@ -58,16 +58,25 @@ async def test_an_answer_is_split_from_an_order_where_only_some_robots_asked() -
         assert chat[0]["answer_id"] == "m1"
 
 
-async def test_a_question_that_was_answered_elsewhere_takes_no_second_answer() -> None:
+@pytest.mark.parametrize("asks", [True, False])
+async def test_of_two_answers_at_once_one_counts_and_so_it_is_with_what_is_offered(asks: bool) -> None:
     async with served("Ada") as rig:
         page = await rig.page()
-        rig.robots.ask("Which box?", name="Ada")
+        if asks:
+            rig.robots.ask("Which box?", name="Ada")
+        else:
+            rig.robots.say("Which box do you mean?", choices=("red", "blue"))
         await page.until(lambda: page.of("chat"))
         key = page.of("chat")[0]["entry"]["id"]
-        first = await rig.http.post("/api/chat", json=message("m1", "red", "Ada", reply_to=key))
-        second = await rig.http.post("/api/chat", json=message("m2", "blue", "Ada", reply_to=key))
-        assert (first.status_code, second.status_code) == (200, 409)
-        assert second.json()["path"] == "reply_to"
+        answers = [message("m1", "red", "Ada", reply_to=key), message("m2", "blue", "Ada", reply_to=key)]
+        both = await asyncio.gather(*(rig.http.post("/api/chat", json=answer) for answer in answers))
+        late = await rig.http.post("/api/chat", json=message("m3", "green", "Ada", reply_to=key))
+        assert sorted(answer.status_code for answer in both) == [200, 409]
+        assert (late.status_code, late.json()["path"]) == (409, "reply_to")
+        again = [answer for answer, got in zip(answers, both, strict=True) if got.status_code == 200]
+        assert (await rig.http.post("/api/chat", json=again[0])).status_code == 200, "the same, sent twice"
+        await rig.heard()
+        assert [heard.message for heard in rig.robots.inputs] == [again[0]["text"]]
 
 
 async def test_a_draft_grows_and_is_replaced_by_the_reply_under_the_same_key() -> None:

@@ -88,6 +88,8 @@ class Backend:
         self.view_listeners: list[Callable[[MapView], None]] = []
         self.picture_listeners: list[Callable[[tuple[str, str], Picture], None]] = []
         self._sending: set[str] = set()
+        self._answering: set[str] = set()
+        """What is just being answered."""
         self._keeping: set[asyncio.Task[None]] = set()
         self._policies: dict[str, str] = {}
         self._policy_by: dict[str, str] = {}
@@ -243,10 +245,16 @@ class Backend:
         if known is not None:
             return await self._say_again(post, known)
         self._check_reply(post)
-        pictures = [kept_picture(f"{post.id}.{number}", image) for number, image in enumerate(post.images)]
-        composed = self._composed(post, by, pictures)
-        await self.store.keep([composed.entry], pictures, composed.messages)
-        self.state.chat.said(composed)
+        self._answering.add(post.reply_to)
+        try:
+            pictures = [
+                kept_picture(f"{post.id}.{number}", image) for number, image in enumerate(post.images)
+            ]
+            composed = self._composed(post, by, pictures)
+            await self.store.keep([composed.entry], pictures, composed.messages)
+            self.state.chat.said(composed)
+        finally:
+            self._answering.discard(post.reply_to)
         await self.outbox.say(composed.entry, composed.messages)
         return composed.entry
 
@@ -303,8 +311,10 @@ class Backend:
         return known
 
     def _check_reply(self, post: ChatPost) -> None:
-        question = self.state.chat.entries.get(post.reply_to)
-        if question is None or question.question in ("", "open") or question.answer_id == post.id:
+        """Of several answers at once, of several people too, one counts."""
+        if not post.reply_to or not (
+            post.reply_to in self._answering or self.state.chat.is_settled(post.reply_to, post.id)
+        ):
             return
         raise WebProblem(
             409,

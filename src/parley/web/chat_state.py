@@ -224,6 +224,21 @@ class ChatBook:
         """Whether the entry `key` is a question that awaits an answer."""
         return key in self._asked_as
 
+    def is_settled(self, key: str, answer_id: str) -> bool:
+        """Whether an entry is a question that was answered otherwise, or an offer that was followed up."""
+        asked = self.entries.get(key)
+        if asked is None or asked.question == "open" or asked.answer_id == answer_id:
+            return False
+        return asked.question != "" or any(
+            one.who == "operator" and one.seq > asked.seq and self._concerned(one) & set(asked.targets)
+            for one in self.entries.values()
+        )
+
+    def _concerned(self, said: ChatEntry) -> set[str]:
+        """Whom a message was said to, and who else replied to it as they were called in it."""
+        replies = (one.targets for one in self.entries.values() if one.reply_to == said.id)
+        return {*said.targets, *(name for targets in replies for name in targets)}
+
     def _question_of(self, robot: str, wanted: str) -> str | None:
         """The question of `robot` that an answer settles: the wanted one, else the newest."""
         waiting = [key for key in self._asked_as if _awaits(self.entries.get(key), robot)]

@@ -161,7 +161,7 @@ describe('the chat', () => {
     const user = show({ chat: [help, noted, question], plans: [plan({ robot: 'Ada', state: 'held' })] });
     expect(tab('Ada').textContent).toContain('Ada is waiting for your answer');
     await user.click(within(screen.getByRole('region', { name: 'Ada asks' })).getByRole('button', { name: 'skip it' }));
-    expect(sent).toMatchObject([{ text: 'skip it', targets: ['Ada'], reply_to: '' }]);
+    expect(sent).toMatchObject([{ text: 'skip it', targets: ['Ada'], reply_to: 'h' }]);
 
     await user.click(tab('Bob'));
     const ask = screen.getByRole('region', { name: 'Bob asks' });
@@ -174,7 +174,7 @@ describe('the chat', () => {
     const noted = entry({ id: 'n', seq: 1, type: 'info', message: 'I noted for myself: “Kim likes tea”', choices: ['Forget “kim”'] });
     const user = show({ chat: [noted] });
     await user.click(screen.getByRole('button', { name: 'Forget “kim”' }));
-    expect(sent).toMatchObject([{ text: 'Forget “kim”', reply_to: '', targets: ['Ada'] }]);
+    expect(sent).toMatchObject([{ text: 'Forget “kim”', reply_to: 'n', targets: ['Ada'] }]);
   });
 
   it('says which of several robots takes a message as an answer', async () => {

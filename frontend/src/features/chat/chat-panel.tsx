@@ -61,7 +61,7 @@ export function ChatPanel() {
   const say = (text: string) => void send({ text, targets: chosen, reply_to: '', images: [] });
   const choose = useCallback(
     (question: ChatEntry, choice: string) =>
-      void send({ text: choice, targets: question.targets, reply_to: question.question === 'open' ? question.id : '', images: [] }),
+      void send({ text: choice, targets: question.targets, reply_to: question.id, images: [] }),
     [send],
   );
   // What was found may have been said to robots that are not spoken to now.

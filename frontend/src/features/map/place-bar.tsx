@@ -98,7 +98,7 @@ function Answer({ question, choice, onDone }: { question: ChatEntry; choice: str
   const { t } = useTranslation('map');
   const send = useOutbox((outbox) => outbox.send);
   const answer = () => {
-    void send({ text: choice, targets: question.targets, reply_to: question.question === 'open' ? question.id : '', images: [] });
+    void send({ text: choice, targets: question.targets, reply_to: question.id, images: [] });
     onDone();
   };
   return (
