@@ -24,3 +24,33 @@ it('goes on with more, and leaves to the person what is not plain', () => {
   expect(said('morning, but skip the door')).toEqual({ unclear: 'the door' });
   expect(said('morning round, backwards')).toEqual({ unclear: 'backwards' });
 });
+
+it.each([
+  ['check bay 1, bay 2 and bay 3', 'bay 2', 'check bay 1 and bay 3'],
+  ['check bay 1, bay 2, and bay 3.', 'bay 3', 'check bay 1, and bay 2'],
+  ['check bay 1, bay 2 and bay 3', 'the bay 1', 'check bay 2 and bay 3'],
+  ['Look at the box and the lamp.', 'the box', 'Look at the lamp'],
+  ['Look at the box and the lamp.', 'lamp', 'Look at the box'],
+  ['check bay 1, bay 2 and bay 3 for leaks', 'bay 2', 'check bay 1 and bay 3 for leaks'],
+  ['Go to bay 1. Look at bay 2. Go home.', 'bay 2', 'Go to bay 1. Go home.'],
+  ['go to bay 1, then look at the box and go to the desk', 'the box', 'Go to bay 1. Go to the desk.'],
+  ['go to bay 1 and check bay 2 and bay 3', 'bay 3', 'Go to bay 1. Check bay 2.'],
+  ['check all bays', 'bay 2', 'check all bays, except bay 2'],
+  ['check bay 1 and bay 2\ngo home', 'bay 2', 'Check bay 1. Go home.'],
+])('leaves out a part of one sentence: %s, without %s', (words, out, left) => {
+  expect(meantBy(`round, but skip ${out}`, [{ name: 'Round', words }])).toEqual({ words: left });
+});
+
+it.each([
+  ['check bay 1 and bay 2 for leaks', 'bay 2'], // whether the rest is looked at for leaks nobody knows
+  ['check bay 1, bay 2 and bay 1', 'bay 1'],
+  ['check bay 2 and tell me what you see', 'bay 2'],
+  ['look at bay 2 and lamp', 'bay 2'],
+  ['check the desk', 'bay 2'],
+  ['check all bays except bay 2 and bay 3', 'bay 3'],
+  ['bring the box from bay 1 and put it on the desk', 'the desk'],
+  ['go to bay 1\nlook at it closely', 'bay 1'],
+  ['check all bays\ncheck all desks', 'bay 2'],
+])('leaves to the person what would be guessed: %s, without %s', (words, out) => {
+  expect(meantBy(`round, but skip ${out}`, [{ name: 'Round', words }])).toEqual({ unclear: out });
+});

@@ -17,11 +17,62 @@ const LEAVES_OUT = [
 const LINK = /^[\s,;.:–-]*(?:(?:but|and|aga|kuid|ja)\b)?[\s,]*/i;
 const ARTICLE = /^(?:the|a|an) /i;
 
-const sentence = (part: string) => `${part.charAt(0).toUpperCase()}${part.slice(1).replace(/[\s.;,]+$/, '')}.`;
+/** With one of these a clause of its own begins. */
+const VERBS =
+  'go|drive|move|come|return|check|look|inspect|verify|see|find|search|bring|take|get|fetch|put|pick|wait|follow|guide|turn|open|close|switch|count|ask|dock';
+const CLAUSE = new RegExp(`(?<=[.;!?])\\s+|(?<=\\s\\S+)(?:\\s*[,;]\\s*|\\s+)(?:and\\s+)?(?:then\\s+)?(?<=[\\s,;])(?=(?:${VERBS})\\s)`, 'i');
+const BETWEEN = /(\s*,\s*(?:and\s+)?|\s+and\s+)/i;
+const BACK = /\b(?:it|its|them|there|him|her|one|that)\b/i; // what is meant by it was said before
+const TURNS = /\b(?:except|but|without|not|unless|if|or|between)\b/i; // with less in it, it might mean more
+const SET = /\b(?:all|every|each|everything|everywhere)\b/i;
+const END = /[\s.;,]+$/;
+
+const sentence = (part: string) => `${part.charAt(0).toUpperCase()}${part.slice(1).replace(END, '')}`.replace(/(?<![?!])$/, '.');
 /** Parts as one message. */
 const together = (parts: readonly string[]) =>
   parts.length > 1 ? parts.map(sentence).join(' ') : (parts[0] ?? '');
 const plain = (words: string) => words.replaceAll(/[\\^$.*+?()[\]{}|]/g, '\\$&');
+const folded = (words: string) => words.replace(ARTICLE, '').toLowerCase();
+const ends = (words: string) => [/^\S+/, /\S+$/].map((end) => end.exec(folded(words))?.[0]);
+
+/** Without one thing, of the parts or of a list in one of them; null where it is not plain what is left then. */
+function without(parts: readonly string[], name: string): readonly string[] | null {
+  const about = new RegExp(`(?<![\\p{L}\\p{N}])${plain(name)}(?![\\p{L}\\p{N}])`, 'iu');
+  const [hit, ...more] = parts.filter((part) => about.test(part));
+  if (hit === undefined) return exceptFor(parts, name);
+  if (more.length > 0) return null;
+  const pieces = hit.replace(END, '').split(BETWEEN);
+  if (TURNS.test(hit) || pieces.filter((item) => about.test(item)).length > 1) return null;
+  const isAlike = (item: string) => ARTICLE.test(item) || ends(item).some((word, at) => word === ends(name)[at]);
+  if (!pieces.some((item, at) => at > 0 && at % 2 === 0 && isAlike(item))) {
+    const needs = BACK.test(parts[parts.indexOf(hit) + 1] ?? '');
+    return needs || parts.length === 1 ? null : parts.filter((part) => part !== hit);
+  }
+  const shorter = fromList(pieces, name, about, isAlike);
+  return shorter === null ? null : parts.map((part) => (part === hit ? shorter : part));
+}
+
+/** The one part that is about all of something, but for one thing: the robot knows what all are. */
+function exceptFor(parts: readonly string[], name: string): readonly string[] | null {
+  const [set, ...others] = parts.filter((part) => SET.test(part));
+  if (set === undefined || others.length > 0 || TURNS.test(set)) return null;
+  return parts.map((part) => (part === set ? `${part.replace(END, '')}, except ${name}` : part));
+}
+
+/** A list in words without one of its items: what stands before the first one stays, what stands behind one is not guessed. */
+function fromList(pieces: readonly string[], name: string, about: RegExp, isAlike: (item: string) => boolean): string | null {
+  const at = pieces.findIndex((item, index) => index % 2 === 0 && about.test(item));
+  const item = pieces[at] ?? '';
+  if (at > 0) {
+    if (folded(item) !== folded(name)) return null;
+    const endsIt = at === pieces.length - 1 && at > 2; // then the one before becomes the last one
+    const left = endsIt ? [...pieces.slice(0, at - 3), pieces[at - 1], pieces[at - 2]] : [...pieces.slice(0, at - 1), ...pieces.slice(at + 1)];
+    return left.join('');
+  }
+  const next = pieces[2] ?? '';
+  const head = new RegExp(`^(.*?)(?:(?:the|a|an)\\s+)?${plain(name)}$`, 'i').exec(item)?.[1];
+  return head && isAlike(next) ? [head, next, ...pieces.slice(3)].join('') : null;
+}
 
 export type Meant =
   /** What to say. */
@@ -32,18 +83,19 @@ export type Meant =
 /** What is meant by `text` if it begins with the name of a favourite; null if it does not. */
 export function meantBy(text: string, favourites: readonly Favourite[]): Meant | null {
   const wanted = text.trim();
-  const folded = wanted.toLowerCase();
+  const said = wanted.toLowerCase();
   const byLength = favourites.toSorted((a, b) => b.name.length - a.name.length);
-  const named = byLength.find(({ name }) => folded.startsWith(name.toLowerCase()) && !/^[\p{L}\p{N}]/u.test(wanted.slice(name.length)));
+  const named = byLength.find(({ name }) => said.startsWith(name.toLowerCase()) && !/^[\p{L}\p{N}]/u.test(wanted.slice(name.length)));
   if (!named) return null;
-  const parts = named.words.split('\n').map((part) => part.trim()).filter(Boolean);
+  const trimmed = (some: readonly string[]) => some.map((part) => part.trim()).filter(Boolean);
+  const parts = trimmed(named.words.split('\n'));
   const change = wanted.slice(named.name.length).replace(LINK, '').replace(/[\s.!]+$/, '');
   if (!change) return { words: together(parts) };
   const leaves = LEAVES_OUT.map((pattern) => pattern.exec(change)?.[1]).find(Boolean);
   if (!leaves) return /^then\b/i.test(change) ? { words: together([...parts, change.replace(/^then\s+/i, '')]) } : { unclear: change };
-  const about = new RegExp(`(?<![\\p{L}\\p{N}])${plain(leaves.replace(ARTICLE, ''))}(?![\\p{L}\\p{N}])`, 'iu');
-  const left = parts.filter((part) => !about.test(part));
-  return left.length === parts.length - 1 && left.length > 0 ? { words: together(left) } : { unclear: leaves };
+  const clauses = BACK.test(named.words) ? parts : trimmed(named.words.split(CLAUSE));
+  const left = without(parts.length > 1 ? parts : clauses, leaves.replace(ARTICLE, ''));
+  return left && left.length > 0 ? { words: together(left) } : { unclear: leaves };
 }
 
 interface Keeping {
