@@ -43,7 +43,7 @@ describe.skipIf(!hasBrowser)('every page', () => {
   it.each(kinds)('is pictured in the size %s and the look %s', async (size, look, box) => {
     const page = await stage.open(box);
     await page.evaluate(
-      (theme) => localStorage.setItem('parley.prefs', JSON.stringify({ state: { theme, language: 'en' }, version: 1 })),
+      (theme) => localStorage.setItem('parley.prefs', JSON.stringify({ state: { theme, language: 'en', openNoted: true }, version: 1 })),
       look,
     );
     const found: string[] = [];

@@ -45,6 +45,16 @@ it('tells how long the robot worked, not how long people let it wait, and nothin
   expect(shown.map((by) => by.previousElementSibling?.textContent?.trim())).toEqual(['worked 0:32', 'Done']);
 });
 
+it('never says that nothing was done yet where it only shows a part of the time', async () => {
+  const user = userEvent.setup();
+  vi.stubGlobal('fetch', network({ history: { json: { rounds: [], complete: true } } }, asked));
+  render(<HistoryPage />);
+  await screen.findByText('Today: nothing was done.');
+  await user.click(screen.getByRole('button', { name: /Today/ }));
+  await user.click(screen.getByRole('option', { name: 'All' }));
+  await screen.findByText('No robot has done anything yet.');
+});
+
 it('tells the next shift what failed, apart from what was done, and who stopped what', async () => {
   const user = userEvent.setup();
   render(<HistoryPage />);

@@ -46,7 +46,7 @@ export function Rounds() {
         <Choice label={t('day')} value={day} options={days.map((id) => ({ id, label: t(`days.${id}`) }))} onChange={by.anew(setDay)} />
       </NarrowBy>
       <Shown found={found} onAgain={() => setAsked(asked + 1)}>
-        {(page) => <List rounds={page.rounds ?? []} narrowed={by.narrowed} />}
+        {(page) => <List rounds={page.rounds ?? []} narrowed={by.narrowed} days={t(`days.${day}`)} all={day === 'any'} />}
       </Shown>
       <div className={css.foot}>
         {found.state === 'ready' && <Paging by={by} complete={found.value.complete ?? true} last={found.value.rounds?.at(-1)?.number} />}
@@ -55,8 +55,9 @@ export function Rounds() {
   );
 }
 
-function List({ rounds, narrowed }: { rounds: readonly RoundView[]; narrowed: boolean }) {
+function List({ rounds, narrowed, days, all }: { rounds: readonly RoundView[]; narrowed: boolean; days: string; all: boolean }) {
   const { t } = useTranslation('log');
+  if (rounds.length === 0 && !narrowed && !all) return <Empty title={t('roundsNone', { days })}>{t('roundsNoneText')}</Empty>;
   if (rounds.length === 0) return <Empty title={narrowed ? t('none') : t('roundsEmpty')}>{!narrowed && <p>{t('roundsEmptyText')}</p>}</Empty>;
   return (
     <ol className={css.rounds}>
