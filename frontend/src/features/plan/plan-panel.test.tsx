@@ -116,6 +116,25 @@ describe('the plan', () => {
     expect(sent[1]).toEqual({ method: 'PUT', path: '/api/plans/Ada/steps', body: { steps: again.map(call), revision: 9 } });
   });
 
+  it('does not say that a step is left out, nor puts it back, that was done before that was heard', async () => {
+    const user = show();
+    const become = (seq: number, states: Record<string, StepState>) => {
+      const now = steps.map((one) => ({ ...one, state: states[one.id] ?? one.state }));
+      act(() => useLive.getState().takeChanges([{ kind: 'plan', seq, plan: plan({ robot: 'Ada', revision: 9, state: 'ended', steps: now }) }]));
+    };
+    await user.click(screen.getByRole('button', { name: 'Skip' }));
+    expect(useToasts.getState().toasts).toHaveLength(1);
+    become(1, { two: 'finished' });
+    expect(useToasts.getState().toasts).toEqual([]);
+
+    become(2, { two: 'running' });
+    act(() => useLive.getState().takeChanges([{ kind: 'plan', seq: 3, plan: plan({ robot: 'Ada', revision: 7, steps }) }]));
+    await user.click(screen.getByRole('button', { name: 'Cancel all' }));
+    become(4, { two: 'finished', three: 'skipped', four: 'skipped' });
+    useToasts.getState().toasts[0]?.action?.run();
+    expect(sent.at(-1)?.body).toEqual({ steps: ['Three', 'Four'].map(call), revision: 9 });
+  });
+
   it('puts back into a plan that moves on just then what it is by then', async () => {
     const user = show();
     await user.click(screen.getByRole('button', { name: 'Skip' }));

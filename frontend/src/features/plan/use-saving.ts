@@ -19,6 +19,9 @@ const MOVED_ON_MS = 2000;
 const ownPlan = (robot: string) =>
   Object.values(useLive.getState().world.plans).find((one) => one.robot === robot && one.kind === 'plan');
 
+const isDone = (robot: string, meant: StepView | undefined) =>
+  Boolean(meant?.planned) && ownPlan(robot)?.steps.some((step) => step.planned === meant?.planned && step.state === 'finished');
+
 const isConflict = (error: unknown) => error instanceof ApiError && error.status === 409;
 
 /** Sends changed steps and says what came of it; `conflict`: the plan has moved on meanwhile. */
@@ -47,18 +50,21 @@ export function usePutBack(plan: PlanView) {
   const show = useToasts((state) => state.show);
   const save = useSaving();
   return (gone: readonly StepView[], message: string, label = t('common:undo')) => {
+    // What was done before it was heard is not out, and is not to be done once more; a search goes with what it is made for.
+    const out = () => gone.filter((_, at) => !isDone(plan.robot, gone.slice(at).find((step) => !step.only_finds)));
+    const stands = () => out().length > 0;
     const undo = async (tries = TRIES): Promise<void> => {
       const now = ownPlan(plan.robot) ?? plan;
       const still = now === plan ? [] : pendingSteps(now.steps);
       try {
-        await putSteps(plan.robot, putBack(gone, plan.steps, still).map(callOf), now.revision);
+        await putSteps(plan.robot, putBack(out(), plan.steps, still).map(callOf), now.revision);
       } catch (error) {
         if (tries <= 1 || !isConflict(error)) throw error;
         await movedOn(plan.robot, now.revision);
         await undo(tries - 1);
       }
     };
-    show({ tone: 'info', message, action: { label, run: () => void save(plan.robot, undo, '') } });
+    if (stands()) show({ tone: 'info', message, action: { label, run: () => void save(plan.robot, undo, '') }, stands });
   };
 }
 
