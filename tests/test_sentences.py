@@ -108,6 +108,11 @@ def test_parts_are_said_one_by_one_and_foreign_words_stay() -> None:
             "Pidin tegema nii: järgne: Ada, ja see ei õnnestunud: Ma ei näe: Ada, nii et ma ei saa järgneda. "
             "Jätkan.",
         ),
+        (
+            "I am still thinking about “sing”. If I should leave it, say “never mind”.",
+            "Mõtlen veel selle üle: „sing“. Kui peaksin selle jätma, ütle „jäta see“.",
+        ),
+        ("never mind", "jäta see"),
         ("I can see a red box and an oak gate.", "Näen red box ja oak gate."),
         ("Several places fit “it”: red box and gate.", "Mitu kohta sobib, „it“: red box ja gate."),
         (

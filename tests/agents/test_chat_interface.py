@@ -593,7 +593,9 @@ async def test_letting_go_concerns_one_robot() -> None:
         assert "All right." not in [said.message for said in room.observer.said]
 
 
-@pytest.mark.parametrize("text", ["never mind", "Nevermind.", "leave it", "please forget that", "drop it!"])
+@pytest.mark.parametrize(
+    "text", ["never mind", "Nevermind.", "leave it", "please forget that", "drop it!", "Jäta see!"]
+)
 def test_words_that_let_go_are_known(text: str) -> None:
     assert is_never_mind(text)
 

@@ -34,9 +34,11 @@ _ARTICLES: Final = ("a {thing}", "an {thing}")
 def is_own(template: str, name: str) -> bool:
     """Whether what is filled in for `name` is somebody's own words, which are said in no other language.
 
-    A `question` and a `step` are a robot's, also between quotation marks.
+    A `question`, a `step` and what lets go of a message are ours, also between quotation marks.
     """
-    return name not in ("question", "step") and (name.startswith("words") or f"“{{{name}}}”" in template)
+    return name not in ("question", "step", "never_mind") and (
+        name.startswith("words") or f"“{{{name}}}”" in template
+    )
 
 
 @dataclass(frozen=True)

@@ -75,6 +75,7 @@ NEVER_MIND: Final = "never mind"
 """What lets go of a message that takes long, and nothing else; "stop" stops the robot as well."""
 _NEVER_MIND: Final = re.compile(
     r"(?:please )?(?:never ?mind(?: it| that| this)?|(?:forget|drop|leave) (?:it|that|this))(?: please)?"
+    r"|(?:palun )?(?:jäta|unusta) see(?: palun)?|pole vaja"
 )
 
 
@@ -148,7 +149,7 @@ def still_thinking(message: str, newer: str = "") -> str:
 
 def is_never_mind(message: str) -> bool:
     """Whether a message says that an answer is not wanted any more."""
-    words = " ".join(re.findall(r"[a-z]+", message.lower()))
+    words = " ".join(re.findall(r"[^\W\d_]+", message.lower()))
     return _NEVER_MIND.fullmatch(words) is not None
 
 
