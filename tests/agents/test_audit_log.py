@@ -125,6 +125,20 @@ async def test_an_order_stands_in_the_log_from_the_words_to_the_end() -> None:
         )
 
 
+@pytest.mark.parametrize(
+    ("effect", "detail", "shown"),
+    [
+        ("edit", {"command": "skip"}, "Kim (phone) changed the plan of Ada: a step is left out."),
+        ("policy", {"policy": "ask_first"}, "Kim (phone) chose when Ada asks first: always."),
+        ("edit", {"name": "skip"}, "Kim (phone) changed the plan of Ada: skip."),
+    ],
+)
+def test_what_programs_call_a_command_or_a_policy_stands_in_the_log_in_words(
+    effect: str, detail: dict[str, str], shown: str
+) -> None:
+    assert told(AuditEvent(effect=effect, by=KIM, robot="Ada", detail=detail)) == shown
+
+
 async def test_a_wish_stands_in_the_log_in_the_words_of_the_robots_own_plans() -> None:
     known = ActionInfo(name=GO.name, inputs={"target": "string"}, phrases=("go to {target}",))
     async with rig() as r:
@@ -175,7 +189,7 @@ async def test_a_button_that_is_sent_again_stands_in_the_log_once() -> None:
         (
             topics.PLAN_DECISION,
             PlanDecision(target="Ada", decision="policy", policy="ask_first", by=KIM),
-            "Kim (phone) chose when Ada asks first: ask_first.",
+            "Kim (phone) chose when Ada asks first: always.",
         ),
         (
             topics.REJECTION,

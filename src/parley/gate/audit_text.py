@@ -18,6 +18,14 @@ __all__ = ["moment", "told", "what_of", "who_of"]
 _NOTHING: Final = "–"
 _DEVICES: Final = ("page on a computer", "page on a phone", "page on a tablet", "a program", "terminal")
 """Our own words for what people speak through; other names are theirs."""
+_OURS: Final = {
+    "skip": "a step is left out",
+    "pop": "a step is left out",
+    "run_at_once": "never",
+    "ask_when_risky": "where care is needed",
+    "ask_first": "always",
+}
+"""Commands and policies as people read them."""
 
 
 def who_of(by: Principal | None) -> Sentence:
@@ -55,8 +63,9 @@ def what_of(detail: dict[str, Any]) -> Sentence:
     if isinstance(steps, list) and steps:
         return listed([str(step) for step in steps])
     for key in ("name", "policy", "command", "graph"):
-        if isinstance(detail.get(key), str):
-            return sentence("{name}", name=detail[key])
+        if isinstance(told := detail.get(key), str):
+            ours = _OURS.get(told, "") if key in ("policy", "command") else ""
+            return sentence(ours) if ours else sentence("{name}", name=told)
     return sentence("{name}", name=_NOTHING)
 
 
