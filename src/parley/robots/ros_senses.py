@@ -8,6 +8,7 @@ from __future__ import annotations
 import asyncio
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import AbstractAsyncContextManager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
@@ -27,9 +28,12 @@ if TYPE_CHECKING:
 
 __all__ = ["SILENT", "RosTopics", "Senses", "velocities_both", "velocities_taken"]
 
-PICTURE_S: Final = 3.0
-PICTURES_KEPT: Final = 30
-"""So many pictures wait for what the robot's detector says of one of them."""
+PICTURE_S: Final = 5.0
+"""Within this a camera gives a picture."""
+DETECTOR_S: Final = 10.0
+"""So much longer its detector has for what is in it: on a busy computer, or without a GPU, it is late."""
+KEPT_BYTES: Final = 32_000_000
+"""So much of pictures waits for what the robot's detector says of one of them."""
 WATCHED_S: Final = 5.0
 """For so long after a picture was asked for the camera is listened to: pictures are what fills a network."""
 
@@ -145,19 +149,31 @@ class Senses:
         topics: Where it is told.
         now_s: The robot's time.
         wall_s: Wall time.
+        timeout: What bounds waiting for a picture, in seconds.
     """
 
-    def __init__(self, topics: RosTopics, now_s: Callable[[], float], wall_s: Callable[[], float]) -> None:
-        self._topics, self._now_s, self._wall_s = topics, now_s, wall_s
+    def __init__(
+        self,
+        topics: RosTopics,
+        now_s: Callable[[], float],
+        wall_s: Callable[[], float],
+        timeout: Callable[[float], AbstractAsyncContextManager[Any]] = asyncio.timeout,
+    ) -> None:
+        self._topics, self._now_s, self._wall_s, self._timeout = topics, now_s, wall_s, timeout
         self._frames = Frames()
         self._amcl: Pose2D | None = None
         self._odom: ros_robot.Odometry | None = None
         self._heard_s = 0.0
         self._sweep: tuple[ros_robot.LaserScan, float] | None = None
         self._camera: list[Subscription] = []
-        self._taken: deque[tuple[Any, float]] = deque(maxlen=PICTURES_KEPT)
+        self._taken: deque[_Picture] = deque()
         self._seen: ros_robot.Detection2DArray | None = None
+        self._judged: tuple[_Picture, ros_robot.Detection2DArray] | None = None
+        """The newest picture of which the detector spoke, and what it said."""
+        self._count = 0
         self._pictures = asyncio.Condition()
+        self._wanted = 0
+        """So many wait for a picture."""
         self._watched_s = 0.0
         self.occupancy: OccupancyMap | None = None
         self.emergency = False
@@ -241,25 +257,38 @@ class Senses:
         """
         if not self._topics.camera:
             raise ActionFailure(FailureCode.NOT_CAPABLE, sentence("I have no camera."))
-        self._watched_s = self._wall_s()
-        if not self._camera:
-            await self._watch(transport)
-        self._taken.clear()
-        self._seen = None
-        seen: ros_robot.Detection2DArray | None = None
+        self._wanted += 1
         try:
-            async with asyncio.timeout(PICTURE_S), self._pictures:
-                await self._pictures.wait_for(lambda: self._taken and self._shown() is not None)
-                seen = self._seen
-        except TimeoutError:
-            if not self._taken:
-                raise ActionFailure(FailureCode.HARDWARE, sentence("My camera gives no picture.")) from None
-            log.warning("the robot's detector says nothing", topic=self._topics.detections)
-        told, stamp_s = self._shown() or self._taken[-1]
-        pixels = picture_of(told)
+            picture, seen = await self._next_picture(transport)
+        finally:
+            self._wanted -= 1
+            self._watched_s = self._wall_s()
+        pixels = picture_of(picture.told)
         height, width, _ = pixels.shape
         found = None if seen is None else detections_of(seen, self._place_of(seen.header.frame_id))
-        return CameraImage(width, height, "rgb8", pixels, stamp_s, found)
+        return CameraImage(width, height, "rgb8", pixels, picture.stamp_s, found)
+
+    async def _next_picture(self, transport: Transport) -> tuple[_Picture, ros_robot.Detection2DArray | None]:
+        """Taken from now on; with a detector, one of which it speaks, if it speaks at all."""
+        async with self._pictures:
+            if not self._camera:
+                await self._watch(transport)
+            before = self._count
+        try:
+            async with self._timeout(PICTURE_S), self._pictures:
+                await self._pictures.wait_for(lambda: self._count > before)
+                picture = self._taken[-1]
+        except TimeoutError:
+            raise ActionFailure(FailureCode.HARDWARE, sentence("My camera gives no picture.")) from None
+        if not self._topics.detections:
+            return picture, None
+        try:
+            async with self._timeout(DETECTOR_S), self._pictures:
+                await self._pictures.wait_for(lambda: self._judged and self._judged[0].number > before)
+                return self._judged or (picture, None)
+        except TimeoutError:
+            log.warning("the robot's detector says nothing", topic=self._topics.detections)
+            return self._taken[-1], None
 
     async def _watch(self, transport: Transport) -> None:
         names = self._topics
@@ -268,13 +297,6 @@ class Senses:
         if names.detections:
             found = names.topic(names.detections, ros_robot.Detection2DArray, PICTURES)
             self._camera.append(await transport.subscribe(found, self._on_detections))
-
-    def _shown(self) -> tuple[Any, float] | None:
-        """The newest picture; with a detector, the one of which it spoke last."""
-        if not self._topics.detections:
-            return self._taken[-1]
-        stamp = self._seen.header.stamp if self._seen is not None else None
-        return next((one for one in self._taken if one[0].header.stamp == stamp), None)
 
     def _place_of(self, frame: str) -> Pose2D | None:
         """Where a frame stands on the map, as far as it lies flat: cameras do not."""
@@ -285,8 +307,9 @@ class Senses:
 
     async def rest(self) -> None:
         """Listen to the camera no more if nobody wanted a picture for a while."""
-        if self._camera and self._wall_s() - self._watched_s > WATCHED_S:
+        if self._camera and not self._wanted and self._wall_s() - self._watched_s > WATCHED_S:
             camera, self._camera = self._camera, []
+            self._taken.clear()
             for end in camera:
                 await end.close()
 
@@ -320,10 +343,29 @@ class Senses:
 
     async def _on_picture(self, told: Any) -> None:
         async with self._pictures:
-            self._taken.append((told, self._now_s()))
-            self._pictures.notify_all()
+            self._count += 1
+            self._taken.append(_Picture(self._count, told, self._now_s()))
+            while sum(len(one.told.data) for one in self._taken) > KEPT_BYTES and len(self._taken) > 1:
+                self._taken.popleft()
+            self._judge()
 
     async def _on_detections(self, told: ros_robot.Detection2DArray) -> None:
         async with self._pictures:
             self._seen = told
-            self._pictures.notify_all()
+            self._judge()
+
+    def _judge(self) -> None:
+        """Find the picture of which the detector spoke last."""
+        if (seen := self._seen) is not None:
+            of = (one for one in self._taken if one.told.header.stamp == seen.header.stamp)
+            self._judged = next(((one, seen) for one in of), self._judged)
+        self._pictures.notify_all()
+
+
+@dataclass(frozen=True, slots=True)
+class _Picture:
+    """As it was heard."""
+
+    number: int
+    told: Any
+    stamp_s: float
