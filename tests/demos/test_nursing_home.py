@@ -75,7 +75,7 @@ async def test_logic_of_an_order_is_driven(demo: Demo, text: str, actions: list[
 
 async def test_every_variant_is_tested(demo: Demo) -> None:
     marks = test_changed_story_ends_for_its_own_reason.pytestmark  # type: ignore[attr-defined]
-    assert set(demo.story.variants) == {*marks[0].args[1], "other_words"}
+    assert set(demo.story.variants) == {*marks[0].args[1], "other_words", "more_words"}
 
 
 @pytest.mark.parametrize(

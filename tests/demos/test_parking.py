@@ -30,7 +30,7 @@ def with_bag_at(demo: Demo, x_m: float, y_m: float) -> Demo:
 
 @pytest.mark.parametrize(
     ("variant", "seed", "bag"),
-    [("", 0, (20.9, 2.0)), ("other_words", 5, (20.1, 2.6))],
+    [("", 0, (20.9, 2.0)), ("more_words", 5, (20.1, 2.6))],
     ids=["told", "reworded"],
 )
 async def test_story_holds_and_the_bag_is_found_where_the_camera_saw_it(

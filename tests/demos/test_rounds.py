@@ -28,7 +28,7 @@ async def test_story_breaks_where_the_world_makes_it_impossible(
 
 @pytest.mark.parametrize("name", ROUNDS)
 def test_every_variant_is_tested(name: str) -> None:
-    assert {*load_demo(name).story.variants} == {*BREAKS[name], "other_words"}
+    assert {*load_demo(name).story.variants} == {*BREAKS[name], "other_words", "more_words"}
 
 
 @pytest.mark.parametrize("name", ROUNDS)

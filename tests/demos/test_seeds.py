@@ -61,7 +61,10 @@ def test_a_robot_may_begin_on_paint() -> None:
     assert WorldFile.parse(text).robots[0].pose == (1.0, 1.0, 0.0)
 
 
-@pytest.mark.parametrize(("name", "variant", "seed"), [("nursing-home", "other_words", 7), ("fleet", "", 1)])
+@pytest.mark.parametrize(
+    ("name", "variant", "seed"),
+    [("nursing-home", "other_words", 7), ("nursing-home", "more_words", 2), ("fleet", "more_words", 1)],
+)
 async def test_story_holds_in_other_words_and_with_another_seed(
     name: str, variant: str, seed: int, tmp_path: Path
 ) -> None:
@@ -82,4 +85,16 @@ async def test_a_robot_with_an_arm_really_brings_the_water(variant: str, seed: i
 @pytest.mark.parametrize("seed", range(10, 20))
 @pytest.mark.parametrize("name", DEMOS)
 async def test_story_holds_with_every_seed(name: str, seed: int, tmp_path: Path) -> None:
-    assert (await played(load_demo(name), tmp_path, "other_words" if seed % 2 else "", seed))[0] == ""
+    variant = ("", "other_words", "more_words")[seed % 3]
+    assert (await played(load_demo(name), tmp_path, variant, seed))[0] == ""
+
+
+async def test_a_look_somewhere_else_is_none_and_a_plan_that_ended_is_not_waited_for(tmp_path: Path) -> None:
+    """The right words, and the wrong place."""
+    demo = load_demo("fleet")
+    for expected, reason in (
+        ({"looked": {"at": ["area_b"]}}, "not_looked"),
+        ({"state": "held"}, "other_state"),
+    ):
+        story = Story.model_validate({"robot": "Leo", "steps": [{"say": "Check Area A."}, expected]})
+        assert (await played(replace(demo, told=story), tmp_path))[0].partition(":")[0] == reason

@@ -23,7 +23,7 @@ def demo() -> Demo:
     return load_demo("warehouse")
 
 
-@pytest.mark.parametrize(("variant", "seed"), [("", 0), ("other_words", 5)])
+@pytest.mark.parametrize(("variant", "seed"), [("", 0), ("more_words", 5)])
 async def test_story_holds_and_what_stands_at_the_edge_is_told(
     demo: Demo, tmp_path: Path, variant: str, seed: int
 ) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 from collections.abc import Callable, Sequence
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Final
 
 from parley.agents.base import Node
 from parley.agents.questions import OpenQuestions
@@ -31,6 +31,9 @@ from parley.transport.base import Transport
 __all__ = ["Observer"]
 
 Emit = Callable[[dict[str, Any]], None]
+
+DRIVE: Final = "NavigateTo"
+PLACE: Final = ("pose::position::x", "pose::position::y")
 
 
 class Observer(Node):
@@ -67,7 +70,11 @@ class Observer(Node):
         self.stop_reports: list[StopReport] = []
         self.feeds: set[tuple[str, str]] = set()
         """(robot, feed) that had a picture."""
+        self.looks: list[tuple[str, str, float, float]] = []
+        """Every picture that was asked for, in order: robot, feed, and where it stood (x and y in metres)."""
         self.robots: set[str] = set()
+        self._stands: dict[str, tuple[float, float]] = {}
+        """Where each robot is by what was heard last: a heartbeat, or the end of a drive."""
         self.poses: dict[str, PoseInfo] = {}
         """Where each robot said last that it is."""
         self.questions = OpenQuestions()
@@ -161,6 +168,9 @@ class Observer(Node):
         if event.kind == "graph":
             self.graph_states[event.actor, event.graph_name] = event.state
         outputs = {name: item.value for name, item in event.outputs.items() if item.has_data}
+        if event.node.startswith(DRIVE) and outputs.keys() >= {*PLACE}:
+            x_m, y_m = (float(outputs[name]) for name in PLACE)
+            self._stands[event.actor] = x_m, y_m
         await self._note(
             "transition",
             robot=event.actor,
@@ -182,12 +192,15 @@ class Observer(Node):
     async def _on_picture(self, feed: DisplayFeed) -> None:
         new = (feed.target, feed.name) not in self.feeds
         self.feeds.add((feed.target, feed.name))
+        if feed.info and feed.target in self._stands:
+            self.looks.append((feed.target, feed.name, *self._stands[feed.target]))
         if new or feed.info:
             await self._note("picture", robot=feed.target, feed=feed.name)
 
     async def _on_status(self, status: ActorStatus) -> None:
         if status.pose is not None:
             self.poses[status.actor] = status.pose
+            self._stands[status.actor] = status.pose.x, status.pose.y
         if status.actor not in self.robots:
             self.robots.add(status.actor)
             await self._note("robot", robot=status.actor, state=status.state)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Final, Protocol, Self
 
 from parley.clock import Clock
 from parley.demos.observer import Emit, Observer
-from parley.demos.story import Finished, Story, StoryStep, Variant
+from parley.demos.story import Finished, Looked, Story, StoryStep, Variant
 from parley.memory.client import recall
 from parley.messages.chat import ChatFeedback
 from parley.messages.memory import RETURN_ALL
@@ -34,8 +34,8 @@ class StoryBroken(Exception):  # noqa: N818 - an outcome, not an error of the pr
 
     Attributes:
         reason: One word: the code of the failure behind it, or `timed_out`, `not_asked`, `other_question`,
-            `other_reply`, `other_plan`, `not_told`, `not_remembered`, `elsewhere`, `not_shown`,
-            `not_put`, `not_finished`.
+            `other_reply`, `other_plan`, `other_state`, `not_told`, `not_looked`,
+            `not_remembered`, `elsewhere`, `not_shown`, `not_put`, `not_finished`.
         text: What was expected and what happened.
     """
 
@@ -152,6 +152,11 @@ class _Player:
         self._observer: Observer
         self._earlier_s = 0.0
         self._heard: dict[str, int] = {}
+        self._looked = 0
+        """So many pictures were taken when something was said last."""
+        self._agreed: set[str] = set()
+        """Ids of plans to which the operator said yes."""
+        self._awaits_reply = False
         self._speaker = story.robot
         self.latencies_s: list[float] = []
 
@@ -177,6 +182,7 @@ class _Player:
         if (world := self._system.simulator) is not None:
             world.on_event = lambda event: self._emit({"event": "world", "text": event.name})
         self._heard.clear()
+        self._looked = 0
 
     async def _close(self) -> None:
         self._earlier_s += self._system.clock.now_s()
@@ -216,10 +222,14 @@ class _Player:
 
     async def _say(self, step: StoryStep, text: str) -> None:
         before_s = time.perf_counter()
+        self._looked = len(self._observer.looks)
+        self._heard[self._robot] = len(self._observer.said)  # nothing older answers it
         ours = self._observer.say(text, self._robot, also=step.also)
+        self._awaits_reply = True
         reply = await self._next_said(
             lambda said: said.type in ("response", "error") and said.reply_to in ("", ours)
         )
+        self._awaits_reply = False
         assert reply is not None
         self.latencies_s.append(time.perf_counter() - before_s)
         missing = [part for part in step.reply if not _is_in(part, reply.message)]
@@ -239,15 +249,18 @@ class _Player:
         return tuple(step.name for step in proposal.steps) if proposal is not None else ()
 
     async def _expect_plan(self, wanted: tuple[str, ...], planned: Callable[[], tuple[str, ...]]) -> None:
+        def is_so() -> bool:
+            return wanted in (planned(), self._proposed() if self._story.agrees else ())
+
         try:
-            await self._observer.until(lambda: planned() == wanted, timeout_s=5.0)
+            await self._observer.until(is_so, timeout_s=5.0)
         except TimeoutError as error:
             raise StoryBroken("other_plan", f"planned {list(planned())}, expected {list(wanted)}") from error
 
-    async def _expect_memory(self, text: str) -> None:
+    async def _expect_memory(self, parts: tuple[str, ...]) -> None:
         entries = await recall(self._system.transport, RETURN_ALL)
-        if not any(text.lower() in entry.data.lower() for entry in entries):
-            raise StoryBroken("not_remembered", f"no memory contains “{text}”")
+        if not any(all(_is_in(part, entry.data) for part in parts) for entry in entries):
+            raise StoryBroken("not_remembered", f"no memory contains {list(parts)}")
 
     async def _answer(self, step: StoryStep, expected: tuple[str, ...]) -> None:
         question = await self._question()
@@ -328,15 +341,16 @@ class _Player:
             raise StoryBroken("not_put", f"{name} does not lie on {on}")
 
     async def _see(self, step: StoryStep) -> None:
-        observer = self._observer
         if step.change is not None:
             assert self._system.simulator is not None, "who changes the world plays where it is"
             self._system.simulator.change(step.change)
             self._emit({"event": "change", "text": step.note})
         elif step.told is not None:
             await self._hear(step.told)
+        elif step.looked is not None:
+            await self._expect_looks(step.looked)
         elif step.state:
-            await self._wait(lambda: observer.state(self._robot) == step.state, f"the state {step.state}")
+            await self._expect_state(step.state)
         else:
             await self._wait(lambda: self._newest_ending() == step.incident, f"a failure {step.incident}")
 
@@ -350,6 +364,41 @@ class _Player:
         found = await self._next_said(lambda said: all(_is_in(part, said.message) for part in parts), over)
         if found is None:
             raise StoryBroken(self._last_failure() or "not_told", f"nothing was told of {list(parts)}")
+
+    async def _expect_state(self, wanted: str) -> None:
+        """It breaks the story if the plan has ended where it was to be stopped on the way."""
+
+        def is_so() -> bool:
+            return self._observer.state(self._robot) == wanted
+
+        on_the_way = wanted in ("held", "paused")
+        await self._wait(lambda: is_so() or (on_the_way and self._idle()), f"the state {wanted}")
+        if not is_so():
+            raise StoryBroken(
+                self._last_failure() or "other_state", f"the plan has ended and is not {wanted}"
+            )
+
+    async def _expect_looks(self, expected: Looked) -> None:
+        """It breaks the story if all plans end, or something is asked, before a robot looked everywhere."""
+
+        def left() -> list[str]:
+            return [name for name in expected.at if not self._was_looked_at(name, expected.within_m)]
+
+        def over() -> bool:
+            robots = self._system.robot_names
+            asks = any(self._observer.questions.newest(robot) is not None for robot in robots)
+            return asks or all(self._observer.state(robot) == "idle" for robot in robots)
+
+        await self._wait(lambda: not left() or over(), f"a look at {list(expected.at)}")
+        try:  # a picture may be heard of after what was said of it
+            await self._observer.until(lambda: not left(), timeout_s=BEATS_S)
+        except TimeoutError:
+            raise StoryBroken(self._last_failure() or "not_looked", f"nobody looked at {left()}") from None
+
+    def _was_looked_at(self, name: str, within_m: float) -> bool:
+        thing = self._system.known.get(name)
+        looks = self._observer.looks[self._looked :]
+        return thing is not None and any(thing.gap_m(x_m, y_m) <= within_m for _, _, x_m, y_m in looks)
 
     def _newest_ending(self) -> str:
         mine = [incident for incident in self._observer.incidents.values() if incident.robot == self._robot]
@@ -387,10 +436,27 @@ class _Player:
         return found[0] if found else None
 
     async def _wait(self, condition: Callable[[], bool], what: str) -> None:
+        def is_over() -> bool:
+            self._agree()
+            return condition()
+
         try:
-            await self._observer.until(condition, timeout_s=PATIENCE_S)
+            await self._observer.until(is_over, timeout_s=PATIENCE_S)
         except TimeoutError as error:
             raise StoryBroken(self._last_failure() or "timed_out", f"waited in vain for {what}") from error
+
+    def _agree(self) -> None:
+        """Say yes to what waits for it, once for all that one order makes of it."""
+        observer = self._observer
+        waiting = {name for name, plan in observer.plans.items() if plan.state == "awaiting_approval"}
+        new = {
+            proposal.id
+            for name, proposal in observer.proposed.items()
+            if name in waiting and proposal.id not in self._agreed
+        }
+        if self._story.agrees and self._robot in waiting and new and not self._awaits_reply:
+            self._agreed |= new
+            observer.say(self._story.agrees, self._robot)
 
 
 def _is_in(part: str, text: str) -> bool:

@@ -10,6 +10,7 @@
       - {id: which, asked: ["which box"], choices: ["red box", "blue box"], answer: "the red one"}
       - {restart: true}
       - {told: ["something is in the way"]}
+      - {looked: {at: [box_1, box_2]}}
       - {change: {remove: [crate_1]}}
       - {finished: {near: box_1, within_m: 1.0, shown: [inspection]}}
     variants:
@@ -22,7 +23,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
 from parley.demos.faults import Fault
 from parley.errors import FileFormatError
@@ -30,7 +31,11 @@ from parley.files import TextFile, parse_yaml, validated
 from parley.sim.entries import PoseTuple
 from parley.sim.world_file import WorldChanges
 
-__all__ = ["Finished", "Story", "StoryStep", "Variant"]
+__all__ = ["Finished", "Looked", "Story", "StoryStep", "Variant"]
+
+
+def _several(value: object) -> object:
+    return (value,) if isinstance(value, str) else value
 
 
 class _Entry(BaseModel):
@@ -50,10 +55,19 @@ class Finished(_Entry):
     """Things of the world, and on which object of the map each must lie."""
 
 
+class Looked(_Entry):
+    """Pictures that were taken since something was said last, by whichever robot."""
+
+    at: tuple[str, ...] = Field(min_length=1)
+    """Ids of objects; for each a robot stood by it and looked."""
+    within_m: float = Field(default=2.0, gt=0)
+    """How close its middle was to the object's bounding box."""
+
+
 class StoryStep(_Entry):
     """One thing that happens.
 
-    Exactly one of `say`, `asked`, `told`, `state`, `incident`, `change`, `restart`, `finished`.
+    Exactly one of `say`, `asked`, `told`, `looked`, `state`, `incident`, `change`, `restart`, `finished`.
     """
 
     id: str = ""
@@ -65,8 +79,8 @@ class StoryStep(_Entry):
     """... to these robots as well, in one message ..."""
     reply: tuple[str, ...] = ()
     """... and each of these texts (any case, ``|`` between wordings) is in the reply,"""
-    remembered: str = ""
-    """a memory with this text is stored,"""
+    remembered: Annotated[tuple[str, ...], BeforeValidator(_several)] = ()
+    """a memory is stored that has each of these texts in it,"""
     plan: tuple[str, ...] = ()
     """and these actions are planned, in this order."""
     proposed: tuple[str, ...] = ()
@@ -79,6 +93,8 @@ class StoryStep(_Entry):
     """... and the operator answers."""
     told: tuple[str, ...] | None = None
     """The robot says something that has each of these texts in it, after what was heard of it before."""
+    looked: Looked | None = None
+    """It was looked at these places."""
     state: Literal["idle", "running", "paused", "held", ""] = ""
     """The plan is in this state."""
     incident: Literal["solved", "skipped", "cancelled", "replaced", "held", ""] = ""
@@ -94,13 +110,13 @@ class StoryStep(_Entry):
 
     @model_validator(mode="after")
     def _one_kind(self) -> Self:
-        things = (self.say, self.asked, self.told, self.change, self.finished)
+        things = (self.say, self.asked, self.told, self.looked, self.change, self.finished)
         kinds = [thing is not None for thing in things] + [
             self.restart, bool(self.state), bool(self.incident),
         ]  # fmt: skip
         if sum(kinds) != 1:
             raise ValueError(
-                "expected exactly one of say, asked, told, state, incident, change, restart, finished"
+                "expected exactly one of say, asked, told, looked, state, incident, change, restart, finished"
             )
         return self
 
@@ -133,6 +149,8 @@ class Story(_Entry, TextFile):
     """More robots, of the first one's model, by name, and where they start."""
     ask_first: bool = False
     """Whether plans wait for a yes."""
+    agrees: str = ""
+    """What the operator says to a plan that waits for a yes where no step speaks of one; empty: nothing."""
     faults: dict[str, tuple[Fault, ...]] = Field(default_factory=dict)
     """Actions that fail at first, by name."""
     examples: tuple[str, ...] = ()
