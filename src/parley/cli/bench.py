@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -14,11 +15,13 @@ from parley.bench.display import measure_display
 from parley.bench.engine import Figures, chain, fan_out, run_chain, run_graphs, run_journaled, share
 from parley.bench.language import measure_language
 from parley.bench.memory import VECTOR_LENGTH, measure_memory
+from parley.bench.simulator import measure_simulator
 from parley.bench.story import measure_demo
 from parley.bench.team import Kind, measure_team
 from parley.bench.transport import measure_transport
 from parley.cli.on_loop import on_loop
 from parley.cli.output import emit_json, quiet_logs
+from parley.demos.catalogue import load_demo
 from parley.extras import needs
 from parley.umrf.model import Graph
 
@@ -236,6 +239,32 @@ def demo(
     else:
         for fact, value in facts.items():
             typer.echo(f"{fact}: {value}")
+
+
+@app.command("simulator")
+def simulator(
+    name: Annotated[str, typer.Argument(help="Whose world and robots.")] = "fleet",
+    seconds: Annotated[float, typer.Option(min=0.1, help="Robot time of each run.")] = 20.0,
+    json: JsonOption = False,
+) -> None:
+    """All robots of a world driving, without their cameras and with pictures at 5 Hz; robot time a core."""
+    quiet_logs()
+
+    async def measure() -> None:
+        world = (await asyncio.to_thread(load_demo, name)).world
+        async for figures in measure_simulator(world, seconds):
+            facts = {
+                "case": "with_cameras" if figures.pictures else "without_cameras",
+                "robots": figures.robots,
+                "pictures": figures.pictures,
+                "robot_s": round(figures.robot_s, 1),
+                "wall_s": round(figures.wall_s, 2),
+                "robot_s_per_core_s": round(figures.per_core, 1),
+            }
+            _show(facts, json)
+
+    on_loop(measure())
+    _show_machine(json)
 
 
 @app.command("team")
