@@ -7,8 +7,9 @@ import os
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
-from parley.cli import up
+from parley.cli import command_line, up
 from parley.cli.on_loop import PULSE, on_loop
 from parley.config import NetworkSettings, SystemConfig
 from parley.deployment import Deployment
@@ -82,6 +83,48 @@ def test_this_machine_is_the_only_one_or_the_one_that_is_named(tmp_path: Path) -
 def test_what_cannot_be_is_refused_with_its_place(tmp_path: Path, text: str, said: str) -> None:
     with pytest.raises(FileFormatError, match=said):
         load(tmp_path, text)
+
+
+WRONG = """
+data: kept
+settings: {aproval: ask_first, network: {domian: 3}}
+machines: {yard: {}}
+robots:
+  - {name: A, machine: attic}
+  - {name: A, machine: yard, wrld: boxes}
+  - {machine: yard, machine: yard}
+web: {machine: yard, port: 100000}
+"""
+ALL_THAT_IS_WRONG = """
+line 3: settings.aproval: there is no such setting
+line 3: settings.network.domian: there is no such setting
+line 6: robots[0].machine: there is no machine 'attic'; there are: yard
+line 7: robots[1].name: two robots have the name 'A'
+line 7: robots[1].wrld: there is no such setting
+line 8: machine: is said twice
+line 8: robots[2].name: Field required
+line 9: web.port: Input should be less than or equal to 65535
+"""
+
+
+def test_all_that_is_wrong_is_told_at_once_in_the_order_of_the_file(tmp_path: Path) -> None:
+    with pytest.raises(FileFormatError) as refused:
+        load(tmp_path, WRONG)
+    told = str(refused.value).replace("up.yaml, ", "").splitlines()
+    agents = "line 2: agents.machine: there is no machine 'here'; there are: yard"
+    assert told == [agents, *ALL_THAT_IS_WRONG.split("\n")[1:-1]]
+
+
+def test_all_that_is_not_there_is_told_before_anything_is_started(tmp_path: Path) -> None:
+    file = tmp_path / "up.yaml"
+    robots = "[{name: A, world: nohome}, {name: B, class: 'none.py:Cart'}, {name: C, class: no.yaml}]"
+    file.write_text(f"data: kept\nrobots: {robots}\nweb: {{password_file: none}}\n", encoding="utf-8")
+    for options in ((), ("--check",)):
+        result = CliRunner().invoke(command_line(), ["up", str(file), *options])
+        assert isinstance(result.exception, ConfigError)
+        told = [line.split(": ")[1] for line in str(result.exception).splitlines()]
+        assert told == ["web.password_file", "robots[0].world", "robots[1].class", "robots[2].class"]
+        assert ("parley engine" in result.output) == bool(options)
 
 
 @pytest.mark.parametrize(

@@ -3,16 +3,27 @@
 from __future__ import annotations
 
 import socket
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, Self
 
 import yaml
-from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, field_validator, model_validator
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    ModelWrapValidatorHandler,
+    ValidationError,
+    ValidationInfo,
+    field_validator,
+    model_validator,
+)
+from pydantic_core import InitErrorDetails
 
 from parley.config import FOLDER, FilePath, NetworkSettings, SystemConfig
 from parley.errors import ConfigError
-from parley.files import TextFile, read_text, validated_yaml
+from parley.files import TextFile, again, read_text, validated_yaml, wrong_at
 
 __all__ = ["Deployment", "PartToRun"]
 
@@ -88,18 +99,18 @@ class Deployment(BaseModel, TextFile):
     """None: no page."""
     robots: tuple[_Robot, ...] = ()
 
-    @model_validator(mode="after")
-    def _fits_together(self) -> Self:
-        names = [robot.name for robot in self.robots]
-        if twice := sorted({name for name in names if names.count(name) > 1}):
-            raise ValueError(f"two robots have the name {twice[0]!r}")
-        known = set(self.machines) or {HERE}
-        for part in (self.agents, *((self.web,) if self.web else ()), *self.robots):
-            if part.machine not in known:
-                raise ValueError(
-                    f"there is no machine {part.machine!r}; there are: {', '.join(sorted(known))}"
-                )
-        return self
+    @model_validator(mode="wrap")
+    @classmethod
+    def _fits_together(cls, raw: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """All that is wrong is told at once: with single fields, and with what has to fit together."""
+        wrong = list(_unfit(raw)) if isinstance(raw, dict) else []
+        try:
+            made = handler(raw)
+        except ValidationError as error:
+            wrong = [*again(error), *wrong]
+        if wrong:
+            raise ValidationError.from_exception_data(cls.__name__, wrong)
+        return made
 
     @classmethod
     def load(cls, path: Path) -> Self:
@@ -168,3 +179,24 @@ class Deployment(BaseModel, TextFile):
             page += ["--password-file", str(self.web.password_file)] if self.web.password_file else []
             found.append(PartToRun("page", tuple(page)))
         return tuple(found)
+
+
+def _unfit(told: dict[str, Any]) -> Iterator[InitErrorDetails]:
+    """What does not fit together, of parts as they are told: each may be wrong in itself besides."""
+    machines, robots = told.get("machines"), told.get("robots")
+    known = sorted(machines) if isinstance(machines, dict) and machines else [HERE]
+    entries = list(robots) if isinstance(robots, list | tuple) else []
+    parts: dict[tuple[str | int, ...], Any] = {("agents",): told.get("agents", {}), ("web",): told.get("web")}
+    parts |= {("robots", index): robot for index, robot in enumerate(entries)}
+    names: set[str] = set()
+    for place, part in parts.items():
+        if not isinstance(part, dict):
+            continue
+        machine, name = part.get("machine", HERE), part.get("name")
+        if machine not in known:
+            problem = f"there is no machine {machine!r}; there are: {', '.join(map(str, known))}"
+            yield wrong_at((*place, "machine"), problem)
+        if isinstance(name, str) and place[0] == "robots":
+            if name in names:
+                yield wrong_at((*place, "name"), f"two robots have the name {name!r}")
+            names.add(name)

@@ -67,11 +67,12 @@ class FileFormatError(ConfigError):
         file: The file's name as the caller gave it.
         field: Path of the field inside the file, e.g. ``items.chair[2].coordinates.x``; empty for the whole.
         problem: What is wrong and what is expected, in one sentence.
+        others: What else is wrong in it, each told as this is.
     """
 
-    def __init__(self, file: str, field: str, problem: str) -> None:
-        self.file, self.field, self.problem = file, field, problem
-        super().__init__(f"{file}: {field + ': ' if field else ''}{problem}")
+    def __init__(self, file: str, field: str, problem: str, others: Sequence[str] = ()) -> None:
+        self.file, self.field, self.problem, self.others = file, field, problem, tuple(others)
+        super().__init__("\n".join((f"{file}: {field + ': ' if field else ''}{problem}", *others)))
 
 
 class MissingExtraError(ConfigError):

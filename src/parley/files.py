@@ -6,24 +6,27 @@ import json
 import os
 import tempfile
 from abc import abstractmethod
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from importlib import resources
 from pathlib import Path
-from typing import Any, Final, Self, TypeVar
+from typing import Any, Final, LiteralString, Self, TypeVar
 
 import yaml
 from pydantic import BaseModel, ValidationError
-from pydantic_core import ErrorDetails
+from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
 
 from parley.errors import FileFormatError
 
 __all__ = [
-    "TextFile", "field_path", "parse_json", "parse_yaml", "read_text", "replace_text", "validated",
-    "validated_yaml", "words_in",
+    "TextFile", "again", "field_path", "parse_json", "parse_yaml", "read_text", "replace_text", "validated",
+    "validated_yaml", "words_in", "wrong_at",
 ]  # fmt: skip
 
 M = TypeVar("M", bound=BaseModel)
 
+_TOLD_AT_ONCE: Final = 20
+"""Of one file; of more it is said how many there are."""
 _MAX_BYTES: Final = 50_000_000
 _MAX_YAML_CHARS: Final = 2_000_000
 """YAML is read slowly: this takes some 20 s."""
@@ -120,13 +123,12 @@ def validated(model: type[M], raw: Any, file: str) -> M:
     """`raw` as a `model`.
 
     Raises:
-        FileFormatError: Names the first field that is missing, wrong or unknown.
+        FileFormatError: Names every field that is missing, wrong or unknown.
     """
     try:
         return model.model_validate(raw)
     except ValidationError as error:
-        first = error.errors(include_url=False, include_input=False)[0]
-        raise FileFormatError(file, field_path(first["loc"]), _told(first)) from error
+        raise _refusal([(file, *_told(one)) for one in _all(error)]) from error
 
 
 def validated_yaml(model: type[M], text: str, file: str, context: dict[str, Any] | None = None) -> M:
@@ -139,34 +141,54 @@ def validated_yaml(model: type[M], text: str, file: str, context: dict[str, Any]
         context: For the model's validators.
 
     Raises:
-        FileFormatError: Names the file, the line, and the first field that is wrong, unknown or said twice.
+        FileFormatError: Names the file, and the line of every field that is wrong, unknown or said twice.
     """
     raw = parse_yaml(text, file)
     root = yaml.compose(text, Loader=yaml.SafeLoader)
-    if root is not None:
-        _refuse_twice(root, file)
+    wrong = [] if root is None else [*_said_twice(root)]
     try:
-        return model.model_validate({} if raw is None else raw, context=context)
+        made = model.model_validate({} if raw is None else raw, context=context)
     except ValidationError as error:
-        first = error.errors(include_url=False, include_input=False)[0]
-        where = f"{file}, line {_line(root, first['loc'])}"
-        problem = "there is no such setting" if first["type"] == "extra_forbidden" else _told(first)
-        raise FileFormatError(where, field_path(first["loc"]), problem) from error
+        wrong += [(_line(root, one["loc"]), *_told(one)) for one in _all(error)]
+    if wrong:
+        raise _refusal([(f"{file}, line {line}", field, told) for line, field, told in sorted(wrong)])
+    return made
 
 
-def _told(problem: ErrorDetails) -> str:
-    """What is wrong, without what pydantic puts before a validator's own words."""
-    return problem["msg"].removeprefix("Value error, ")
+def _all(error: ValidationError) -> list[ErrorDetails]:
+    return error.errors(include_url=False, include_input=False)
 
 
-def _refuse_twice(node: yaml.Node, file: str) -> None:
+def _told(problem: ErrorDetails) -> tuple[str, str]:
+    """The field, and what is wrong, without what pydantic puts before a validator's own words."""
+    if problem["type"] == "extra_forbidden":
+        return field_path(problem["loc"]), "there is no such setting"
+    return field_path(problem["loc"]), problem["msg"].removeprefix("Value error, ")
+
+
+def _refusal(wrong: Sequence[tuple[str, str, str]]) -> FileFormatError:
+    """Of what is wrong, each with where it stands and its field."""
+    others = [str(FileFormatError(*one)) for one in dict.fromkeys(wrong[1:])]
+    more = len(others) - _TOLD_AT_ONCE
+    return FileFormatError(
+        *wrong[0], [*others[:_TOLD_AT_ONCE], *([f"... and {more} more"] if more > 0 else [])]
+    )
+
+
+def _said_twice(root: yaml.Node) -> Iterator[tuple[int, str, str]]:
     """What stands in a file twice has no meaning; YAML takes the last without a word."""
-    names: set[str] = set()
-    for key, value in node.value if isinstance(node, yaml.MappingNode) else ():
-        if key.value in names:
-            raise FileFormatError(f"{file}, line {key.start_mark.line + 1}", str(key.value), "is said twice")
-        names.add(key.value)
-        _refuse_twice(value, file)
+    waiting, looked_at = [root], {id(root)}  # a node may stand in itself
+    while waiting:
+        node = waiting.pop()
+        within = list(node.value) if isinstance(node, yaml.SequenceNode) else []
+        names: set[str] = set()
+        for key, value in node.value if isinstance(node, yaml.MappingNode) else ():
+            if key.value in names:
+                yield key.start_mark.line + 1, str(key.value), "is said twice"
+            names.add(str(key.value))
+            within.append(value)
+        waiting += [one for one in within if id(one) not in looked_at]
+        looked_at.update(map(id, within))
 
 
 def _line(node: yaml.Node | None, location: tuple[int | str, ...]) -> int:
@@ -183,6 +205,19 @@ def _line(node: yaml.Node | None, location: tuple[int | str, ...]) -> int:
             return int(line)
         line, node = found[0].start_mark.line + 1, found[1]
     return int(line)
+
+
+def wrong_at(
+    location: tuple[int | str, ...], problem: str, kind: LiteralString = "unfit"
+) -> InitErrorDetails:
+    """What is wrong with a field, for a validator that looks at several of them."""
+    told = PydanticCustomError(kind, "{problem}", {"problem": problem})
+    return InitErrorDetails(type=told, loc=location, input=None)
+
+
+def again(error: ValidationError) -> list[InitErrorDetails]:
+    """What an error tells, to be told with more."""
+    return [wrong_at(one["loc"], one["msg"], one["type"]) for one in _all(error)]
 
 
 def field_path(location: tuple[int | str, ...]) -> str:

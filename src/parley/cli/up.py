@@ -6,7 +6,7 @@ import asyncio
 import os
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Annotated, Final
 
@@ -16,8 +16,9 @@ from parley.agents.notices import Notifier
 from parley.cli.on_loop import PULSE, on_loop
 from parley.cli.output import quiet_logs
 from parley.clock import Clock, WallClock
+from parley.demos.catalogue import DEMOS
 from parley.deployment import Deployment, PartToRun
-from parley.errors import ConfigError
+from parley.errors import ConfigError, FileFormatError
 from parley.network import transport_of
 from parley.sentences import sentence
 
@@ -52,8 +53,28 @@ def command(
     if check:
         for part in parts:
             typer.echo(f"{part.name}: parley {' '.join(part.arguments)}")
+    if lacking := [str(FileFormatError(file.name, *one)) for one in _lacking(deployment, here)]:
+        raise ConfigError("\n".join(lacking))
+    if check:
         return
     on_loop(_run(deployment, here, parts, verbose))
+
+
+def _lacking(deployment: Deployment, machine: str) -> Iterator[tuple[str, str]]:
+    """Fields that name what is not on this machine, and why: all of them, before anything is started."""
+    page = deployment.web
+    secret = page.password_file if page is not None and page.machine == machine else None
+    if secret is not None and not secret.is_file():
+        yield "web.password_file", f"there is no file {secret}"
+    for index, robot in enumerate(deployment.robots):
+        if robot.machine != machine:
+            continue
+        if robot.world and robot.world not in DEMOS and not Path(robot.world).exists():
+            known = ", ".join(DEMOS)
+            yield f"robots[{index}].world", f"there is no folder {robot.world}, and no demonstration: {known}"
+        file = robot.kind.rpartition(":")[0] if ":" in robot.kind else robot.kind
+        if Path(file).suffix in (".py", ".yaml", ".yml") and not Path(file).is_file():
+            yield f"robots[{index}].class", f"there is no file {file}"
 
 
 async def _run(deployment: Deployment, machine: str, parts: Sequence[PartToRun], verbose: bool) -> None:
