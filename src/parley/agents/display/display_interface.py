@@ -69,10 +69,9 @@ class DisplayInterface(Node):
 
     async def open(self) -> None:
         """See `Node.open`."""
-        # Many feeds share this topic, and a burst of one must not push out the last picture of another.
-        await self.subscribe(
-            topics.DISPLAY_FEED, DisplayFeed, self._on_picture, depth=MAX_FEEDS, in_charge=True
-        )
+        # Many feeds share this topic, and a burst of one must not push out the last picture of another. What
+        # is lost only the log tells: the next picture takes its place, and what a look tells has its own.
+        await self.subscribe(topics.DISPLAY_FEED, DisplayFeed, self._on_picture, depth=MAX_FEEDS)
 
     def _on_picture(self, picture: DisplayFeed) -> None:
         topic = display_topic(picture.target, picture.name)
