@@ -77,6 +77,14 @@ async def test_a_button_that_is_pressed_while_nobody_plans_is_told_of_and_does_n
                 while "planning does not answer" not in told:
                     await asyncio.sleep(0.2)
                     told = (await page.get("/api/chat")).text
+            for command, state in (("resume", "running"), ("pause", "paused")):
+                assert await press(command) == 200
+                async with asyncio.timeout(10):  # its engine is told itself
+                    while (now := system.statuses[ROBOT]).state != state or now.at_rest is (
+                        state == "running"
+                    ):
+                        system.beat.clear()
+                        await system.beat.wait()
             await system.start("agents")
             await system.until_met()
             assert system.statuses[ROBOT].state == "paused", "nothing begins by itself"

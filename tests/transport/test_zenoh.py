@@ -291,6 +291,29 @@ async def test_messages_that_were_lost_on_the_way_are_counted(at: str, stranger:
         assert subscription.dropped == 3 + 1
 
 
+async def test_what_is_said_again_until_it_is_taken_is_lost_once_at_most(at: str) -> None:
+    heard: list[str] = []
+    async with AsyncExitStack() as ends:
+        async with listening(at, role="router"):
+            one = await ends.enter_async_context(connecting(at, role="client"))
+            other = await ends.enter_async_context(connecting(at, role="client"))
+            taken = await other.subscribe(TALK, lambda message: heard.append(message.data))
+            await until(lambda: hears(one, TALK))
+            talker = one.publisher(TALK)
+            talker.publish(String("before"))
+            await until(lambda: heard)
+        await until(lambda: not hears(one, TALK))
+        for text in ("first", "second", "gone", *["first", "second"] * 8):
+            talker.publish(String(text))
+        async with listening(at, role="router"):
+            await until(lambda: hears(one, TALK))
+            for text in ("first", "second", "first", "after"):
+                talker.publish(String(text))
+            await until(lambda: heard[-1:] == ["after"])
+    assert heard == ["before", "first", "second", "first", "after"]
+    assert taken.dropped == 1, "what nobody said again"
+
+
 async def test_a_call_that_is_no_call_is_refused_and_the_next_is_answered(
     at: str, stranger: Stranger
 ) -> None:

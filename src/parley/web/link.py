@@ -141,6 +141,7 @@ class Link:
         """Whether whoever reads what people say was ever heard to say so; a node of another make does not."""
         self._unread: dict[str, _Unread] = {}
         """Words and presses that were published, by their id."""
+        self._again_s = 0.0
         self._outcomes: dict[str, asyncio.Future[PressTaken]] = {}
         """Of presses of which somebody waits to hear what came of them, by id."""
         self._planner, (self._page, self._pressed) = "", pressed
@@ -294,13 +295,23 @@ class Link:
                     async with asyncio.timeout(again_s):
                         await unread[0].read.wait()
                         continue
-                for each in unread:
-                    words = isinstance(each.message, ChatInput)
-                    if not each.overtaken and (self.says_what_it_read or not words):
-                        self.send(each.message)
+                self._send_again(again_s)
         finally:
             for identity in ids:
                 del self._unread[identity]
+
+    def _send_again(self, again_s: float) -> None:
+        """Send all that is wanted, in its order: one that came out of turn would be told as lost before."""
+        now_s = self._clock.wall_s()
+        if now_s - self._again_s >= again_s / 2:
+            self._again_s = now_s
+            for each in filter(self._is_wanted, self._unread.values()):
+                self.send(each.message)
+
+    def _is_wanted(self, unread: _Unread) -> bool:
+        """Whether it is to be sent again."""
+        waits = not (unread.read.is_set() or unread.is_past or unread.overtaken)
+        return waits and (self.says_what_it_read or not isinstance(unread.message, ChatInput))
 
     def overtaken(self, press: str) -> bool:
         """Whether something newer has gone to a robot than a press that waits to be taken."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import itertools
 from collections.abc import Callable
 from typing import Any, Final, Generic, Protocol, TypeVar
 
@@ -10,6 +11,7 @@ import structlog
 import zenoh
 from zenoh.ext import AdvancedPublisher, AdvancedSubscriber
 
+from parley.latest import Latest
 from parley.messages.topics import Topic
 from parley.transport import remote
 from parley.transport.base import Endpoint
@@ -25,6 +27,9 @@ T = TypeVar("T")
 
 log = structlog.get_logger(__name__)
 
+WORDS_KNOWN: Final = 64
+LONGEST_WORDS: Final = 4096
+"""Bytes. So many of its newest messages of no more than that a publisher knows when they are said again."""
 SENDERS_KNOWN: Final = 256
 """Of how many publishers a subscription knows what number comes next; of more the oldest are forgotten."""
 
@@ -46,8 +51,8 @@ class Holder(remote.Holder, Protocol):
     def send(self, job: Callable[[], object]) -> None:
         """Have an answer sent."""
 
-    def stamps(self, whose: str) -> Callable[[], bytes]:
-        """What goes with each message of one end, numbered from 1."""
+    def stamps(self, whose: str) -> Callable[[int], bytes]:
+        """What goes with each message of one end, from its number."""
         ...
 
     def closed(self, end: Any) -> None:
@@ -74,6 +79,7 @@ class ZenohPublisher(Generic[M]):
         )  # fmt: skip
         self._outbox = Outbox(None if topic.qos.keep_all else topic.qos.depth)
         self._stamp = transport.stamps(token)
+        self._numbers, self._said = itertools.count(1), Latest[int, int](WORDS_KNOWN)
         self._open = True
         self._declare = declare
         self._publisher: zenoh.Publisher | AdvancedPublisher | None = None
@@ -84,7 +90,8 @@ class ZenohPublisher(Generic[M]):
         check_message(self._topic, message)
         if not self._open:
             return
-        if self._outbox.put(self._codec.encode(message), self._stamp()):
+        data = self._codec.encode(message)
+        if self._outbox.put(data, self._stamp(self._number(data))):
             count = self._outbox.dropped
             if count.bit_count() == 1:
                 log.warning(
@@ -93,6 +100,14 @@ class ZenohPublisher(Generic[M]):
                     dropped=count,
                 )
         self._lane.do(self._send)
+
+    def _number(self, data: bytes) -> int:
+        """What is said again until somebody takes it keeps its number, so that it is no loss each time."""
+        if len(data) > LONGEST_WORDS:
+            return next(self._numbers)
+        key = hash(data)
+        number = self._said[key] = self._said.get(key) or next(self._numbers)
+        return number
 
     def close(self) -> None:
         """See `Publisher.close`."""
@@ -135,7 +150,7 @@ class ZenohSubscription(RemoteSubscription[M]):
 
     def _count_lost(self, attached: Attachment) -> None:
         before = self._numbers.pop(attached.gid, attached.number - 1)
-        self._numbers[attached.gid] = attached.number
+        self._numbers[attached.gid] = max(before, attached.number)  # less: it was said again
         if len(self._numbers) > SENDERS_KNOWN:
             del self._numbers[next(iter(self._numbers))]
         if attached.number > before + 1:

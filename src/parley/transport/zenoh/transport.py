@@ -84,7 +84,7 @@ class ZenohTransport(RemoteTransport[Graph]):
         try:
             await self.ask(self._open_session)
             self._node = Node(self._network.domain, str(self._session.zid()), self._node_name)
-            self._stamp_call = self.stamps(self._node.token())
+            self._stamp_call, self._calls_made = self.stamps(self._node.token()), itertools.count(1)
             await self.ask(self._begin)
         except zenoh.ZError as error:
             self._abandon()
@@ -201,10 +201,10 @@ class ZenohTransport(RemoteTransport[Graph]):
         """See `Holder.send`."""
         self._calls.do(job)
 
-    def stamps(self, whose: str) -> Callable[[], bytes]:
+    def stamps(self, whose: str) -> Callable[[int], bytes]:
         """See `Holder.stamps`."""
-        numbers, gid = itertools.count(1), gid_of(whose)
-        return lambda: Attachment(next(numbers), self._clock.unix_ms() * 1_000_000, gid).to_bytes()
+        gid = gid_of(whose)
+        return lambda number: Attachment(number, self._clock.unix_ms() * 1_000_000, gid).to_bytes()
 
     def closed(self, end: _End) -> None:
         """See `Holder.closed`."""
@@ -291,7 +291,7 @@ class ZenohTransport(RemoteTransport[Graph]):
                     congestion_control=_BLOCK,
                     priority=zenoh.Priority.INTERACTIVE_HIGH,
                     payload=request,
-                    attachment=self._stamp_call(),
+                    attachment=self._stamp_call(next(self._calls_made)),
                     cancellation_token=given_up,
                 )
 
