@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import ast
 import importlib.util
 import json
 import os
+import re
 import socket
 import sqlite3
 import sys
@@ -14,6 +16,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+import parley
 from parley.cli import command_line
 from parley.config import EmbeddingSettings
 from parley.doctor import Finding, Subject, examine
@@ -44,6 +47,22 @@ def test_a_machine_that_has_everything_needed_is_not_hindered(machine: Subject) 
     assert [finding for finding in findings if finding.hinders] == []
     assert all(finding.remedy for finding in findings if finding.state in ("missing", "wrong"))
     assert not machine.data_dir.exists(), "looking changes nothing"
+
+
+def test_whatever_can_be_found_wrong_is_told_with_how_to_mend_it() -> None:
+    calls = [
+        call
+        for file in (Path(parley.__file__).parent).glob("*.py")
+        for call in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        if isinstance(call, ast.Call) and isinstance(call.func, ast.Name) and call.func.id == "Finding"
+    ]
+    wrong = [
+        call
+        for call in calls
+        if {"'missing'", "'wrong'"} & set(re.findall(r"'\w+'", ast.unparse(call.args[1])))
+    ]
+    assert len(wrong) > 20
+    assert [ast.unparse(call) for call in wrong if len(call.args) < 4] == []
 
 
 def test_a_page_that_is_not_built_is_missing_but_the_terminal_works(machine: Subject) -> None:

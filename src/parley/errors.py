@@ -80,10 +80,13 @@ class MissingExtraError(ConfigError):
 
     Attributes:
         extra: Its name, as pip takes it.
+        what: What people call it.
+        remedy: How to get it.
     """
 
     def __init__(self, extra: str, what: str) -> None:
-        self.extra = extra
+        self.extra, self.what = extra, what
+        self.remedy = f"Run: pip install 'parley-hri[{extra}]'"
         super().__init__(f"{what} is not installed; to get it: pip install 'parley-hri[{extra}]'")
 
 

@@ -31,6 +31,8 @@ CONNECTS_WITHIN_S: Final = 2.0
 GROUP: Final = "224.0.0.224"
 """Where Zenoh looks for others."""
 _SAME: Final = "Look at domain, interface and tls: all parts need the same."
+_ROBOTS: Final = "parley engine"
+_PLANS: Final = "parley node agents"
 _SAME_ROS: Final = (
     "Compare ROS_DOMAIN_ID, RMW_IMPLEMENTATION and ROS_AUTOMATIC_DISCOVERY_RANGE: all parts need the same."
 )
@@ -47,7 +49,7 @@ def examine_network(network: NetworkSettings | None) -> Iterable[Finding]:
     try:
         transport = transport_of(SystemConfig(network=network), node="parley_doctor")
     except MissingExtraError as missing:
-        yield Finding("network", "missing", str(missing))
+        yield Finding("network", "missing", f"{missing.what} is not installed.", missing.remedy)
         return
     except ParleyError as error:
         yield Finding("network", "wrong", str(error), "See ROS 2 above.")
@@ -125,7 +127,11 @@ async def _listen(transport: Transport, network: NetworkSettings) -> list[Findin
         return [Finding("network", "missing", text, _SAME_ROS if network.ros2 else _SAME)]
     robots = ", ".join(sorted(apart_ms)) or "none"
     told = f"robots: {robots}; who plans: {'there' if plans else 'not there'}; pages: {pages}"
-    found = [Finding("network", "ok" if plans and apart_ms else "missing", told)]
+    absent = [command for command, there in ((_ROBOTS, apart_ms), (_PLANS, plans)) if not there]
+    mend = (
+        f"Start with the same settings: {' and '.join(absent)}; if that runs, {_SAME[0].lower()}{_SAME[1:]}"
+    )
+    found = [Finding("network", "missing" if absent else "ok", told, mend if absent else "")]
     for robot, difference_ms in sorted(apart_ms.items()):
         if abs(difference_ms) > APART_MS:
             text = f"the clock of {robot} is {difference_ms / 1000:+.0f} s from this one"

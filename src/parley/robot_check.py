@@ -33,6 +33,7 @@ APART_S: Final = 1.0
 """Clocks that differ by less do no harm."""
 _LONG_AGO_S: Final = 1e9
 """No clock of the wall shows so few seconds since 1970: it is a simulated one."""
+_NETWORK: Final = "Look at `network` of the settings (--config): what is said of it above has to be ok first."
 _BRIDGE: Final = (
     "Start it on the robot: ros2 launch rosbridge_server rosbridge_websocket_launch.xml; or mend `address`."
 )
@@ -52,9 +53,11 @@ def examine_robot(file: RosRobotFile, name: str, network: NetworkSettings | None
         transport = _transport(file, network)
         yield from asyncio.run(_Look(file, name).through(transport))
     except MissingExtraError as missing:
-        yield Finding("robot", "missing", str(missing))
+        yield Finding("robot", "missing", f"{missing.what} is not installed.", missing.remedy)
     except (TransportError, OSError) as error:
-        yield Finding("robot", "wrong", f"{name} is out of reach: {error}", _BRIDGE if file.address else "")
+        yield Finding(
+            "robot", "wrong", f"{name} is out of reach: {error}", _BRIDGE if file.address else _NETWORK
+        )
 
 
 def _transport(file: RosRobotFile, network: NetworkSettings | None) -> Transport:
