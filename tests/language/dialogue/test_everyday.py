@@ -7,10 +7,12 @@ from dataclasses import replace
 import pytest
 
 from parley.language.base import Situation, Turn
-from parley.language.builtin.decision import Answer, Ask, Do, Forget, Remember
+from parley.language.builtin.decision import Answer, Ask, Do, Edit, Forget, Remember
 from parley.language.builtin.engine import BuiltinLanguage
-from parley.language.dialogue.state import Asked, Dialogue
+from parley.language.dialogue.state import Asked, Dialogue, Order
+from parley.messages.chat import ActionCall
 from parley.messages.memory import MemoryEntry
+from parley.messages.pvf import Parameter
 from parley.world.object_map import MapObject
 from tests.language.builtin.test_sights import ABLE
 
@@ -67,6 +69,30 @@ def test_thanks_do_not_hide_an_order() -> None:
     assert calls("thank you, go to the gate") == ["drive_to gate"]
     made = ENGINE.decide(at("thank you, go back to where you charge"))
     assert isinstance(made, Ask)
+
+
+def test_thanks_before_what_comes_next_are_not_all_of_it() -> None:
+    assert isinstance(ENGINE.decide(at("thanks, then the gate")), Ask)
+    assert isinstance(ENGINE.decide(at("thank you, that's all for today")), Answer)
+
+
+@pytest.mark.parametrize("message", ["is the gate free?", "hi, is the gate free?", "Ada, is the gate free?"])
+def test_how_something_is_now_is_looked_at_however_the_question_begins(message: str) -> None:
+    made = ENGINE.decide(at(message))
+    assert isinstance(made, Ask) and made.offer
+
+
+def test_who_is_sent_to_look_at_it_looks() -> None:
+    assert calls("go look at the gate") == ["look gate"]
+
+
+def test_what_is_not_meant_is_not_done_as_well() -> None:
+    given = {"place": Parameter("string", "long bench in the hall")}
+    went = ActionCall(name="drive_to", input_parameters=given, reason="go to the long bench in the hall")
+    before = Dialogue(orders=(Order("go to the long bench", calls=(went,)),), now_unix_ms=1)
+    made = ENGINE.decide(at("wait, not the short bench, the gate", dialogue=before))
+    assert isinstance(made, Edit)
+    assert [str(call.input_parameters["place"].value) for call in made.change.add] == ["gate"]
 
 
 @pytest.mark.parametrize("message", ["look around", "have a look around please"])

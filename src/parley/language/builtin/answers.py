@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Sequence
 from typing import Final
 
 from parley.language.base import Situation
@@ -54,7 +54,7 @@ def answer(
     return _kept(situation, lexicon) or Answer(f"I do not know anything about {shown}.")
 
 
-def look_asked_for(tokens: Sequence[Token], names: Sequence[Named]) -> str:
+def look_asked_for(tokens: Sequence[Token], names: Sequence[Named], called: Container[str] = ()) -> str:
     """The order that answers "is the gate clear?" or "is there a cat at the gate?"; empty for others.
 
     How something is now, no map and no memory can tell; where it is, they can.
@@ -62,9 +62,10 @@ def look_asked_for(tokens: Sequence[Token], names: Sequence[Named]) -> str:
     Args:
         tokens: Of the message.
         names: What it names on the map.
+        called: Names of robots, in small letters.
     """
-    low = [token.low for token in tokens if token.is_word]
-    ask = next((at for at, word in enumerate(low[:3]) if word in ("is", "are")), None)
+    low = [token.low for token in tokens if token.is_word and token.low not in called]
+    ask = next((at for at, word in enumerate(low[:4]) if word in ("is", "are")), None)
     if ask is None or set(low[:ask]) - _OPENING or len(names) != 1:
         return ""
     being, rest = low[ask], low[ask + 1 :]
@@ -79,7 +80,9 @@ def look_asked_for(tokens: Sequence[Token], names: Sequence[Named]) -> str:
     return f"check if {' '.join(subject)} {being} {' '.join(state)}"
 
 
-_OPENING: Final = frozenset({"so", "and", "ok", "okay", "hey", "please", "well"})
+_OPENING: Final = frozenset(
+    {"so", "and", "ok", "okay", "hey", "please", "well", "hi", "hello", "good", "morning", "evening", "sorry"}
+)
 _ANY: Final = frozenset(
     {"anybody", "anyone", "somebody", "someone", "anything", "something", "everything", "nobody", "all"}
 )

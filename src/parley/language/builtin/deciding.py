@@ -146,7 +146,8 @@ def _looking(
         return sight
     names = named(tokens, situation.objects, lexicon)
     spaces = [] if names else named(tokens, situation.rooms, lexicon)
-    order = look_asked_for(tokens, names or spaces)
+    called = {word for robot in situation.robots for word in robot.lower().split()}
+    order = look_asked_for(tokens, names or spaces, called)
     order = f"go to the {spaces[0].text} and {order}" if order and spaces else order
     made = again(order) if order else None
     if isinstance(made, Ask) and made.choices:

@@ -56,11 +56,8 @@ class Builder(Doing):
         values = self._values(wish)
         if isinstance(values, Ask):
             return values
-        if (
-            wish.frame == "TAKE"
-            and {*values} == {"T"}
-            and all(map(self._is_place, values["T"].things or [None]))
-        ):
+        places = {*values} == {"T"} and all(map(self._is_place, values["T"].things or [None]))
+        if wish.frame == "TAKE" and places:
             wish, values = replace(wish, frame="GO"), {"G": values["T"]}  # "take aisle 3": that way
         if wish.frame == "LOOK" and {*values} == {*"LK"} and values["L"].each:
             values["T"] = values.pop("L")  # places that are looked at for something: each is looked at
@@ -366,11 +363,8 @@ class Builder(Doing):
         if skill is not None and "T" in values and self.lexicon.frames[wish.frame].roles.get("T") == "thing":
             skill = skill.fitting(self.is_person(wish.all("T"), values["T"]))
         other = _BY_HAND.get(wish.frame) if "TAKE" in self.skills else None
-        if (
-            wish.frame in (*HANDLED, "BRING")
-            and "T" in values
-            and (which := self._not_held(wish, values)) is not None
-        ):
+        handled = wish.frame in (*HANDLED, "BRING") and "T" in values
+        if handled and (which := self._not_held(wish, values)) is not None:
             return which
         if skill is not None and (other is None or not self._is_fetched(wish, values)):
             return self.direct(wish, skill, values)

@@ -370,6 +370,8 @@ def _wish(parse: Parse, verb: Verb, mine: list[Filler], lexicon: Lexicon) -> Wis
     if verb.frame == "GO" and behind in _TO_US and not any(filler.role == "G" for filler in mine):
         mine = [*(f for f in mine if f.start != end), Filler("G", end, end + 2, 1, behind, 1.0, "to me")]
     known = longer or lexicon.frames_of(words, particles)
+    if len(words) > 1 and words[0] in ("go", "come"):
+        known |= lexicon.frames_of(words[1:], particles)  # "go look at it"
     known |= {general for special, general in _KIND_OF.items() if special in known}
     lone = longer or (known if verb.share < _GUESSED else frozenset())  # several words leave no doubt
     meant = len(lone) == 1 and verb.frame not in known and parse.acts[verb.start] == "order"
@@ -586,19 +588,12 @@ def _left_over(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
     small = lexicon.classes["small"]
     left = []
     for at, token in enumerate(parse.tokens):
-        if (
-            at in taken
-            or not token.is_word
-            or (
-                low[at] in small
-                and not (at and len(low[at]) == 1 and token.text.isupper() and low[at] != "i")
-            )
-            or (parse.acts[at] in ("social", "told", "need") and not _runs_on(parse, at))
-        ):
+        letter = at > 0 and len(low[at]) == 1 and token.text.isupper() and low[at] != "i"
+        told = parse.acts[at] in ("social", "told", "need") and not _runs_on(parse, at)
+        if at in taken or not token.is_word or told or (low[at] in small and not letter):
             continue
-        if (
-            low[at] in _LEADING or low[at : at + 2] == ["close", "to"] or low[at] == "back"
-        ) and at + 1 in starts:
+        leads = low[at] in _LEADING or low[at : at + 2] == ["close", "to"] or low[at] == "back"
+        if leads and at + 1 in starts:
             continue
         if low[at] == "with" and low[at + 1 : at + 2] in (["me"], ["us"]):
             continue

@@ -28,6 +28,7 @@ __all__ = [
     "Visit",
     "before_all",
     "change_of",
+    "is_against",
     "moved",
     "reordered",
     "texts_of",
@@ -220,7 +221,7 @@ def change_of(
     against: list[Named] = []
     for at, name in enumerate(names):
         joined = names[at - 1] in against and _is_joined(low[names[at - 1].end : name.start]) if at else False
-        if joined or _is_against(low, name):
+        if joined or is_against(low, name):
             against.append(name)
     for_ = [name for name in names if name not in against]
     takes_back = _TAKING_BACK.search(text) is not None
@@ -325,7 +326,8 @@ def _is_joined(between: Sequence[str]) -> bool:
     return {"and"} <= {*between} <= {"and", "the", "a", "an", ",", "or", "also"}
 
 
-def _is_against(low: Sequence[str], name: Named) -> bool:
+def is_against(low: Sequence[str], name: Named) -> bool:
+    """Whether the words before a name say that it is not meant: "not the desk"."""
     before: list[str] = []
     for word in reversed(low[: name.start]):
         if not (word[0].isalnum() or word[0] == "'") or word in ("and", "then"):

@@ -12,7 +12,7 @@ from parley.language.builtin.saying import which_one
 from parley.language.builtin.spatial import beside
 from parley.language.builtin.tokens import Token
 from parley.language.dialogue.answers import listed
-from parley.language.dialogue.changes import Change, Visit, moved, visits_of
+from parley.language.dialogue.changes import Change, Visit, is_against, moved, visits_of
 from parley.language.dialogue.mentions import Named, named, same_kind
 from parley.language.dialogue.state import Order
 from parley.messages.status import PlanStep
@@ -78,7 +78,8 @@ def followed(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, la
     done = _last_visits(last, situation)
     if not done or not {*rest} - _which(rest) <= _SMALL | _GOING or _LINKING.search(said) is None:
         return None
-    before = done[0].things[0]
+    before, low = done[0].things[0], [token.low for token in tokens]
+    names = [name for name in names if not is_against(low, name)]
     chosen = [_near(before, name, {*rest}, lexicon) for name in names]
     which = next((things for things in chosen if len(things) > 1), ())
     if which and not _GOING & {*words}:

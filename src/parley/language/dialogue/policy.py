@@ -55,10 +55,13 @@ from parley.world.object_map import MapObject
 __all__ = ["afterwards", "beforehand", "no_facts", "only_names", "promised", "spoken_of"]
 
 
-_ALL: Final = r"that(?: is|'s| was| will be|'ll be) (?:all|it|everything)(?: for (?:now|today|the moment))?"
+_ALL: Final = (
+    r"that(?: is|'s| was| will be|'ll be) (?:all|it|everything)(?: for(?: now| today| the moment)?)?"
+)
 _SOCIAL: Final = re.compile(
     r"(?:good (?:morning|day|evening|night|afternoon)|hello|hi|hey|bye|goodbye|see you(?: later)?|"
-    rf"thank(?:s| you)(?: \w+)*(?: {_ALL})?|{_ALL}(?: thanks| thank you)?|"
+    rf"thank(?:s| you)(?! (?:and |but )?(?:then|now|next)\b)(?: \w+)*(?: {_ALL})?|"
+    rf"{_ALL}(?: thanks| thank you)?|"
     r"(?:that (?:was|is)|that's) (?:nice|great|good|perfect|lovely|fine|quick|fast)|"
     r"cheers|well done|good (?:job|boy|robot|work)|nice|great|perfect|cool|wow|haha+.*|lol|sorry|"
     r"you(?: are|'re| r) .+)"
