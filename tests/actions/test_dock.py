@@ -61,13 +61,19 @@ async def test_the_operator_hears_once_that_it_is_low_and_sends_it_to_charge() -
     async with running(System(world, SystemConfig(speed=None))) as house:
 
         def low() -> list[str]:
-            return [said.message for said in house.observer.said if "low" in said.message]
+            return [said.message for said in house.observer.said if said.message.startswith("My battery")]
 
         await house.observer.until(lambda: bool(low()), timeout_s=20)
         await house.say("go and charge")
         assert (await house.done(), house.actions()) == (["finished"], ["Dock"])
         house.system.simulator.change({"robots": weak(0.04)})
         await house.observer.until(lambda: len(low()) > 1, timeout_s=20)
+        house.system.simulator.change({"robots": weak(0.0)})
+        await house.observer.until(lambda: len(low()) > 2, timeout_s=20)
         assert low() == [
-            f"My battery is low: {number} %. Say “go and charge” when you can spare me." for number in (18, 4)
+            *(
+                f"My battery is low: {number} %. Say “go and charge” when you can spare me."
+                for number in (18, 4)
+            ),
+            "My battery is empty. Please have me brought to where I am charged.",
         ]

@@ -11,6 +11,7 @@ import pytest
 
 from parley.config import SystemConfig
 from parley.demos.catalogue import load_demo
+from parley.demos.story import Variant
 from parley.language.base import Language
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.scripted import ScriptedLanguage
@@ -113,6 +114,18 @@ async def test_who_is_stopped_while_the_order_is_understood_is_told_of_as_stoppe
         await home.observer.until(lambda: bool(replies()), timeout_s=PATIENCE_S)
         assert "Leo was stopped meanwhile, so nobody does its part: Go to “pump”." in replies()[0]
         assert goals(home)["Leo"] == []
+
+
+async def test_who_can_take_no_part_in_what_everybody_was_told_is_named_with_the_reason() -> None:
+    lost = Variant.model_validate({"world": {"robots": {"TIAGo": {"localisation": "lost"}}}})
+    async with running(load_demo("fleet").system(SystemConfig(speed=None), lost)) as home:
+        await home.observer.until(lambda: home.observer.robots == {*ROBOTS})
+        answer = (await told(home, "Check all three areas", *ROBOTS)).message
+        assert answer.endswith("TIAGo does not know where it is, so it takes no part.")
+        home.observer.publish(topics.STOP, StopCommand(targets=("Leo",), id="stop", by=person("Kim")))
+        await home.observer.until(lambda: bool(home.observer.stop_reports), timeout_s=PATIENCE_S)
+        answer = (await told(home, "Everybody back to the dock", *ROBOTS)).message
+        assert "Leo is stopped, so it takes no part." in answer
 
 
 async def test_why_it_is_that_robot_is_told_by_whoever_is_asked() -> None:

@@ -1,4 +1,4 @@
-"""Tells operators that a robot's battery is low: once, and again when it is nearly empty."""
+"""Tells operators that a battery is low: once, again when it is nearly empty, and when it is quite empty."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from parley.transport.base import Transport
 
 __all__ = ["Batteries"]
 
-LOW: Final = (0.2, 0.05)
+LOW: Final = (0.2, 0.05, 0.0)
 """At each of these it is told."""
 _REFILLED: Final = 0.1
 """So much above such a level it counts as filled, and may be told again."""
@@ -52,6 +52,8 @@ class Batteries(Node):
 
 
 def _low(status: ActorStatus, charge: float) -> Sentence:
+    if charge <= 0:  # where it is told to charge, it cannot go
+        return sentence("My battery is empty. Please have me brought to where I am charged.")
     number = f"{100 * charge:.0f}"
     if any("charges" in action.capabilities for action in status.catalogue):
         return sentence(

@@ -37,6 +37,7 @@ __all__ = ["Mission", "Share", "TeamTalk"]
 TELL_EACH: Final = sentence("I cannot tell what of that can be done apart. Please tell each of us its part.")
 IN_FULL: Final = sentence("I do not know what you mean by that. Please say it in full.")
 CHANGES: Final = "{robot} gets no part: it would change what it is at. Please tell it by itself."
+_EVERYBODY: Final = ("all", "each", "rest")
 MOST_TASKS: Final = 40
 """More places than this are not shared in one order."""
 
@@ -153,7 +154,21 @@ class TeamTalk:
             text = sentence("What shall we do about {what}?", what=what)
             spread = (f"Check {what}, split between you", f"Go to {what}, split between you")
             return Mission(text=text, choices=spread)
-        return await work.parts(wish, target)
+        mission = await work.parts(wish, target)
+        if mission is None or not mission.shares or all(part.who not in _EVERYBODY for part in wish.parts):
+            return mission
+        spared = {name for part in wish.parts for name in part.without}
+        out = [name for name in team or self._presence.names() if name not in {*members, *spared}]
+        return replace(mission, text=together(mission.text, *filter(None, map(self._why_out, out))))
+
+    def _why_out(self, robot: str) -> Sentence | None:
+        """Why a robot that is there takes no part in what everybody was told."""
+        status = self._presence.get(robot)
+        if status is None:
+            return None
+        if status.state == "stopped":
+            return sentence("{robot} is stopped, so it takes no part.", robot=robot)
+        return sentence("{robot} does not know where it is, so it takes no part.", robot=robot)
 
     async def _asked(self, wish: TeamWish, said: ChatInput) -> Mission | None:
         """A question about one robot or all, answered by whom it is about; None: that takes deeds."""
