@@ -1,3 +1,4 @@
+import { useEffect } from 'react';
 import { Dialog as AriaDialog, Heading, Modal, ModalOverlay } from 'react-aria-components';
 import { useTranslation } from 'react-i18next';
 
@@ -17,6 +18,12 @@ interface Props {
 /** A box over the page. */
 export function Dialog({ title, isOpen, onClose, children, role = 'dialog' }: Props) {
   const { t } = useTranslation('common');
+  // The browser's way back leaves the page that the box belongs to.
+  useEffect(() => {
+    if (!isOpen) return undefined;
+    window.addEventListener('hashchange', onClose);
+    return () => window.removeEventListener('hashchange', onClose);
+  }, [isOpen, onClose]);
   return (
     <ModalOverlay
       className={css.overlay ?? ''}
