@@ -57,3 +57,18 @@ async def test_a_plain_action_in_its_thread_blocks_nothing() -> None:
     async with watched(told) as (drive, _):
         await in_thread("action Grind_0", time.sleep, BLOCKED_S + 0.2)
     assert (drive.log, told) == ([], [])
+
+
+async def test_who_hears_a_topic_is_no_action_to_be_blamed() -> None:
+    told = list[str]()
+    async with watched(told) as (drive, _):
+
+        async def hear() -> None:
+            time.sleep(LONG_S)  # noqa: ASYNC251 - the defect that is to be noticed
+
+        await asyncio.create_task(hear(), name="sub /parley/actor_status")
+        async with asyncio.timeout(5):
+            while len(drive.log) < 2:  # noqa: ASYNC110 - done by another thread
+                await asyncio.sleep(0.01)
+        await asyncio.sleep(0)
+    assert told == []

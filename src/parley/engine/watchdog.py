@@ -91,13 +91,14 @@ class LoopWatchdog:
         frame = sys._current_frames().get(self._loop_thread)
         code = frame.f_code if frame is not None else None
         where = f"{code.co_name} ({code.co_filename}:{frame.f_lineno})" if code and frame else ""
-        return (node if graph and slash else ""), where
+        is_action = graph and slash and not graph.startswith("sub ")  # who hears a topic has one, too
+        return (node if is_action else ""), where
 
 
 def _told(action: str, blocked_s: float) -> Sentence:
     return sentence(
         "For {seconds} seconds I could hear nobody, because {action} kept everything waiting. I stood still "
         "meanwhile.",
-        seconds=f"{blocked_s:.0f}",
+        seconds=f"{blocked_s:.1f}",
         action=action.rpartition("_")[0] or action,
     )

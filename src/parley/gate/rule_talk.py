@@ -32,6 +32,8 @@ _NO: Final = frozenset({"no", "n", "nope", "no thanks", "never mind", "ei", "är
 _LIST: Final = re.compile(
     r"^(?:what|which)(?: are the| are your)? rules(?: are there| hold| do you have| are in force)?$"
     r"|^(?:list|show|tell)(?: me)?(?: all)?(?: the| your)? rules$"
+    r"|^(?:what|where)(?: must| may| can| should| are)(?: you not|n't you| you never| you not allowed to)"
+    r"(?: do| go| drive)?$|^what(?: are you| is) (?:not allowed|forbidden)(?: to do)?$"
     r"|^(?:mis|millised) reeglid(?: on| kehtivad| sul on)?$"
 )
 _DROP: Final = re.compile(

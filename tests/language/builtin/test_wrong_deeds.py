@@ -9,6 +9,7 @@ import pytest
 from parley.language.base import Situation
 from parley.language.builtin.decision import Answer, Ask, Decision, Do, Forget, Remember
 from parley.language.builtin.engine import BuiltinLanguage
+from parley.language.builtin.judging import asked
 from parley.messages.chat import ActionCall
 from parley.messages.memory import MemoryEntry
 from parley.messages.pvf import Parameter
@@ -43,6 +44,7 @@ def places(said: str, **more: object) -> list[str]:
         ("look at the crane furthest from the silo", ["white crane"]),
         ("inspect bays 1 and 2, then both cranes", ["bay 1", "bay 2", "grey crane", "white crane"]),
         ("look at bay 1 and then the white one", ["bay 1", "white crane"]),
+        ("check bay 1, then bay 2", ["bay 1", "bay 2"]),
         ("go to the silo the depot and bay 2", ["silo", "depot", "bay 2"]),
         ("finish at the depot but start at bay 1", ["bay 1", "depot"]),
     ],
@@ -59,6 +61,7 @@ def test_what_is_named_is_where_it_goes_and_none_is_lost(said: str, about: list[
         "Can you open doors?",
         "Take Ms Kaur her keys.",
         "give the boy a bath",
+        "actually leave bay 2",
         "we are closed. my shift ends in ten minutes and I promised to be home.",
     ],
 )
@@ -138,3 +141,20 @@ def test_who_forgets_where_a_thing_is_forgets_nothing_else() -> None:
     ]
     made = decided("Forget where the chest is.", memory=tuple(known))
     assert isinstance(made, Forget) and made.names == ("chest_location",)
+
+
+@pytest.mark.parametrize(
+    "said", ["verify the silo is clear", "check the silo is clear", "check if the silo is clear"]
+)
+def test_what_is_to_be_so_is_judged_without_a_word_that_asks(said: str) -> None:
+    looked = places(said)[-1]
+    assert (
+        looked.startswith(("whether the silo is clear", "if the silo is clear"))
+        and asked(looked).unwanted is False
+    )
+    assert asked(looked).kind == "room"
+
+
+def test_half_a_list_is_not_even_offered() -> None:
+    made = decided("I need bays 1, 2 and X checked. Divide them among yourselves.")
+    assert isinstance(made, Ask) and not made.offer

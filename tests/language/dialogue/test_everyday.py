@@ -76,7 +76,9 @@ def test_thanks_before_what_comes_next_are_not_all_of_it() -> None:
     assert isinstance(ENGINE.decide(at("thank you, that's all for today")), Answer)
 
 
-@pytest.mark.parametrize("message", ["is the gate free?", "hi, is the gate free?", "Ada, is the gate free?"])
+@pytest.mark.parametrize(
+    "message", ["is the gate free?", "hi, is the gate free?", "Ada, is the gate free?", "is the gate on?"]
+)
 def test_how_something_is_now_is_looked_at_however_the_question_begins(message: str) -> None:
     made = ENGINE.decide(at(message))
     assert isinstance(made, Ask) and made.offer

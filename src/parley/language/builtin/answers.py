@@ -75,7 +75,7 @@ def look_asked_for(tokens: Sequence[Token], names: Sequence[Named], called: Cont
         (at for at in range(len(rest), 0, -1) if rest[at - len(names[0].words) : at] == [*names[0].words]), 0
     )
     subject, state = rest[:end], rest[end:]
-    if not state or len(subject) > len(names[0].words) + 1 or {*state} & _PLACED:
+    if not state or len(subject) > len(names[0].words) + 1 or ({*state} & _PLACED and state != ["on"]):
         return ""
     return f"check if {' '.join(subject)} {being} {' '.join(state)}"
 

@@ -67,7 +67,8 @@ def may_be_offered(reading: Reading, orders: Sequence[Wish], lexicon: Lexicon) -
     """Whether orders that are not certain are sensible enough to be shown, for a person to say yes to."""
     if reading.acts & {"alarm", "question", "control", "edit"} or len(reading.left_over) > _FEW:
         return False
-    if {word.lower() for word in reading.left_over} & lexicon.classes["logic"]:
+    named = any(len(word) == 1 or word.isdigit() for word in reading.left_over)  # "areas A, B and C"
+    if named or {word.lower() for word in reading.left_over} & lexicon.classes["logic"]:
         return False
     if any(filler.role not in ("A", "T", "L", "M") for filler in reading.loose):
         return False

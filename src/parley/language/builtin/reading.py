@@ -199,7 +199,11 @@ def _one_by_one(parse: Parse, span: Span, lexicon: Lexicon) -> list[Span]:
 def _going_on(parse: Parse, span: Span, before: Sequence[Span]) -> Span:
     """A thing that only "and then" leads to, as one more that the same is done with."""
     last = before[-1] if before else None
-    if span.role != "T" or span.owner is not None or last is None or last.owner is None:
+    if last is None or last.owner is None:
+        return span
+    on_the_spot = parse.verbs[last.owner].frame in _REPEATED - {"GO", "BRING", "TAKE"}
+    stray = span.role == "G" and span.owner == last.owner and last.role == "T" and on_the_spot
+    if not stray and (span.role != "T" or span.owner is not None):
         return span
     between = [token.low for token in parse.tokens[last.end : span.start]]
     on = {*between} & _ON and {*between} <= _ON | {"and", ",", "also", "the", "please"}

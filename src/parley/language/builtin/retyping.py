@@ -65,6 +65,10 @@ def retyped(wish: Wish, lexicon: Lexicon) -> Wish:
 
 def _to_where(wish: Wish) -> Wish:
     """With what is named as its goal, which "to it" or "there" behind it only repeats."""
+    if wish.verb == "leave":
+        return replace(
+            wish, fillers=tuple(replace(f, role="S") if f.role in "TG" else f for f in wish.fillers)
+        )
     pointing = [f for f in wish.all("G") if {*f.words} <= _POINTING]
     if pointing and any(thing.start < f.start for thing in wish.all("T") for f in pointing):
         wish = replace(wish, fillers=tuple(f for f in wish.fillers if f not in pointing))
@@ -146,12 +150,20 @@ def _seen(wish: Wish) -> Wish:
     said = wish.all("K")[0]
     if wish.frame == "SAY" and (wish.has("XT") or said.words[0] not in _TOLD_OF):
         return wish
+    states = {"is", "are"} & {*said.words[1:-1]} and said.words[0] not in _TOLD_OF | {
+        "for",
+        "that",
+        "a",
+        "an",
+    }
+    if wish.frame == "LOOK" and states:  # "verify the bay is clear"
+        words, text = ("whether", *said.words), f"whether {said.text}"
+        stated = replace(said, head=said.head + 1, words=words, said=text)
+        return replace(wish, fillers=tuple(stated if f is said else f for f in wish.fillers))
     wish = replace(wish, frame="LOOK" if wish.frame == "SAY" else wish.frame)
     behind = [f for f in wish.fillers if f.start >= said.end and f.role in "TL"]
-    if (
-        len(said.words) == 1 and behind and behind[0].start - said.end <= 1
-    ):  # "what | the box on the desk | is"
-        said = _run(said, behind)
+    if len(said.words) == 1 and behind and behind[0].start - said.end <= 1:
+        said = _run(said, behind)  # "what | the box on the desk | is"
         wish = replace(wish, fillers=(*(f for f in wish.fillers if f.role != "K" and f not in behind), said))
     bare = [word for word in said.words if word not in _BEING | {"the", "what", "whats"}]
     if tuple(bare[:2]) not in {("how", "many"), *_NUMBERS} or len(bare) < 3:
