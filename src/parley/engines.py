@@ -47,11 +47,11 @@ from parley.umrf.action import ActionSpec, RunHandle
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.discovery import ActionFolder, LiveActions, installed_actions
 from parley.world.approach import Spot
-from parley.world.found import FoundThings
+from parley.world.found import FoundThings, reaching_floor
 from parley.world.geometry import Pose2D
-from parley.world.object_map import MapObject, ObjectMap
+from parley.world.object_map import PLACE, MapObject, ObjectMap
 from parley.world.occupancy import NO_MAP, OccupancyMap
-from parley.world.placed import Placed
+from parley.world.placed import Placed, names_of
 from parley.world.telling import floor_of, told_objects
 from parley.world.whereabouts import Footprint
 
@@ -59,6 +59,8 @@ __all__ = ["Engines", "WorldView"]
 
 GREETS_AFTER_S: Final = 0.2
 _NOTHING: Final = Placed()
+_ON_IT_M: Final = 0.3
+"""What is seen no farther than that from something on the map, where no floor is, stands in or on it."""
 
 log = structlog.get_logger(__name__)
 
@@ -94,10 +96,15 @@ class WorldView:
 
     async def note(self, label: str, place: Footprint) -> MapObject | None:
         """See `parley.actions.context.World.note`."""
+        before = self.engines.placed_on(self.occupancy.name).applied(self.engines.objects)
+        # What no floor is on the map may be furniture that has no name there yet: a new map has none at all.
         if self.occupancy is not NO_MAP and not self.occupancy.is_free(place.x_m, place.y_m):
-            return None
-        before = self.engines.placed_on(self.occupancy.name)
-        thing = await self.engines.found.note(label, place, before.applied(self.engines.objects))
+            near = (item for item in before.objects if item.gap_m(place.x_m, place.y_m) <= _ON_IT_M)
+            if any(item.class_name != PLACE and label not in names_of(item) for item in near):
+                return None
+            with contextlib.suppress(ActionFailure):  # where it was seen from may not be known just now
+                place = reaching_floor(place, self.occupancy, self.engines.robots[self.robot].pose())
+        thing = await self.engines.found.note(label, place, before)
         self.engines.tell_sites()
         return thing
 

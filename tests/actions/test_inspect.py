@@ -250,6 +250,20 @@ async def test_what_should_not_be_there_is_an_alarm_and_then_on_the_map_where_it
         assert "(2.2, 1.4)" in here.person.memories[0].data or "(2.1, 1.4)" in here.person.memories[0].data
 
 
+async def test_a_look_at_nothing_in_particular_puts_all_that_stays_on_the_map() -> None:
+    async with room() as here:
+        sure, unsure = Detection("shelf", 400, (0, 0, 9, 9), None, 1.8, 1.2), 0.3
+        doubtful = replace(sure, label="lamp", confidence=unsure)
+        someone, nowhere = replace(sure, label="person"), replace(sure, label="cup", x_m=None)
+        eyes = cast("Robot", Eyes(here, sure, doubtful, someone, nowhere))
+        before = {item.description for item in here.context.world.objects.objects}
+        here.script.will("inspect", InspectionReport("I can see a shelf."))
+        await inspect(replace(here.context, robot=eyes), "what can be seen here")
+        after = {item.description for item in here.context.world.objects.objects}
+        assert after - before == {"shelf"}
+        assert here.person.memories == []
+
+
 async def test_what_is_moved_is_found_where_it_is_now() -> None:
     bag = box("bag_1", 2.2, 1.4, (0.4, 0.3, 0.3), label="bag")
     async with room({"add": [bag]}, BuiltinLanguage()) as here:

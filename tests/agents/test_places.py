@@ -228,6 +228,19 @@ async def test_what_a_robot_saw_is_put_on_the_map_or_not() -> None:
         assert await it.names() == {"green crate", "trolley"}
 
 
+async def test_furniture_that_the_map_has_no_name_for_is_put_there_and_what_stands_on_it_is_not() -> None:
+    async with crew() as it:
+        sees = WorldView(it.system.engines, "A", it.system.engines.occupancy("A"))
+        assert not sees.occupancy.is_free(6.1, 1.0), "a wall, or what stands there"
+        assert await sees.note("shelf", Footprint(6.1, 1.0))
+        (shelf,) = (thing for thing in (await it.map()).objects if thing.found)
+        assert sees.occupancy.is_free(shelf.x - shelf.width / 2, shelf.y), "one can stand before it"
+        assert (await it.ask(was=shelf, put=shelf.model_copy(update={"found": False}))).notes == ()
+        assert await sees.note("lamp", Footprint(6.1, 1.1)) is None
+        assert await sees.note("shelf", Footprint(6.1, 1.0))
+        assert await it.names() == {"green crate", "shelf"}
+
+
 def with_stand(x: float, y: float) -> MapThing:
     """The pump, with where to stand for it."""
     return PUMP.model_copy(update={"stand": PoseInfo(x=x, y=y, yaw=1.57)})

@@ -25,6 +25,9 @@ FEED: Final = "inspection"
 COVERING_SHARE: Final = 0.04
 """A thing that nobody expects and that covers more of the picture than this may hide what is looked for."""
 
+_SURE: Final = 0.5
+"""So sure a detector has to be of what nobody asked about, to put it on the map."""
+
 
 @dataclass(frozen=True, slots=True)
 class Inspection:
@@ -112,18 +115,27 @@ def _alarm(text: str, report: InspectionReport, found: Sequence[str], **more: An
 async def _kept(ctx: ActionContext, report: InspectionReport, image: CameraImage, where: str) -> list[str]:
     """Take down what was found: on the map, for all robots to go to, and in the memory, with its picture."""
     names: list[str] = []
-    walk_about = {person.name for person in ctx.robot.people()}
     for thing in report.things:
-        name = thing.label
-        stays = name not in walk_about and not name.startswith("robot ")
-        if stays and thing.x_m is not None and thing.y_m is not None:
-            placed = await ctx.world.note(name, Footprint(thing.x_m, thing.y_m, *thing.span_m))
-            name = placed.description if placed is not None else name
+        name = await _placed(ctx, thing)
         _note_sighting(ctx, name, thing, image, where)
         names.append(name)
+    if report.found is None and not report.things:  # nothing in particular was looked for: all counts
+        for thing in image.detections or ():
+            if thing.confidence is None or thing.confidence >= _SURE:
+                await _placed(ctx, thing)
     if report.found and report.wanted and not (report.things or report.unwanted):
         _note_sighting(ctx, report.wanted, None, image, where)
     return names
+
+
+async def _placed(ctx: ActionContext, thing: Detection) -> str:
+    """Put something on the map, if it stays where it is and that is known; how people call it."""
+    name = thing.label
+    walks = name.startswith("robot ") or name in {"person", *(person.name for person in ctx.robot.people())}
+    if walks or thing.x_m is None or thing.y_m is None:
+        return name
+    placed = await ctx.world.note(name, Footprint(thing.x_m, thing.y_m, *thing.span_m))
+    return placed.description if placed is not None else name
 
 
 async def _told(ctx: ActionContext, wanted: str) -> list[str]:

@@ -4,21 +4,25 @@ from __future__ import annotations
 
 import asyncio
 import json
+import math
 import re
 from dataclasses import replace
 from itertools import count
 from pathlib import Path
 from typing import Any, Final
 
+import numpy as np
 import structlog
 
 from parley.errors import FileFormatError
 from parley.files import parse_json, read_text, replace_text
+from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject, ObjectMap
+from parley.world.occupancy import OccupancyMap
 from parley.world.placed import new_id
 from parley.world.whereabouts import Footprint, nearest, standing
 
-__all__ = ["FoundThings"]
+__all__ = ["FoundThings", "reaching_floor"]
 
 log = structlog.get_logger(__name__)
 
@@ -27,6 +31,8 @@ _MOVED_M: Final = 3.0
 _SEEN_M: Final = 0.1
 """So much beside its place on the map something may be seen that was not moved."""
 _SMALLEST_M: Final = 0.1
+_DEEPEST_M: Final = 1.0
+"""No furniture has its middle farther from the floor before it."""
 
 
 class FoundThings:
@@ -132,6 +138,17 @@ def _new(label: str, place: Footprint, known: ObjectMap) -> MapObject:
     if name.lower() in taken:
         name = next(name for n in count(2) if (name := f"{label} {n}").lower() not in taken)
     return MapObject(new_id(label, known.objects), name, place.x_m, place.y_m, class_name=words[-1])
+
+
+def reaching_floor(place: Footprint, occupancy: OccupancyMap, seen_from: Pose2D) -> Footprint:
+    """The same, reaching to the floor before it: only the middle of furniture may be known, deep within."""
+    bearing = seen_from.bearing_to(place.x_m, place.y_m)
+    for away_m in np.arange(0.0, _DEEPEST_M, occupancy.resolution_m / 2):
+        x, y = math.cos(bearing) * away_m, math.sin(bearing) * away_m
+        if occupancy.is_free(place.x_m - x, place.y_m - y):
+            width, height = (2 * round(abs(side), 3) for side in (x, y))
+            return replace(place, width_m=max(place.width_m, width), height_m=max(place.height_m, height))
+    return place
 
 
 def _write(file: Path, text: str) -> None:
