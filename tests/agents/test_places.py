@@ -237,8 +237,9 @@ async def test_furniture_that_the_map_has_no_name_for_is_put_there_and_what_stan
         assert sees.occupancy.is_free(shelf.x - shelf.width / 2, shelf.y), "one can stand before it"
         assert (await it.ask(was=shelf, put=shelf.model_copy(update={"found": False}))).notes == ()
         assert await sees.note("lamp", Footprint(6.1, 1.1)) is None
+        assert (await sees.note("TV in the lab", Footprint(2.0, 1.0))).class_name == "tv"  # type: ignore[union-attr]
         assert await sees.note("shelf", Footprint(6.1, 1.0))
-        assert await it.names() == {"green crate", "shelf"}
+        assert await it.names() == {"green crate", "shelf", "TV in the lab"}
 
 
 def with_stand(x: float, y: float) -> MapThing:

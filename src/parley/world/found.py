@@ -31,6 +31,8 @@ _MOVED_M: Final = 3.0
 _SEEN_M: Final = 0.1
 """So much beside its place on the map something may be seen that was not moved."""
 _SMALLEST_M: Final = 0.1
+_WHERE: Final = re.compile(r"\b(?:at|by|from|in|near|of|on|with)\b")
+"""Before these stands what it is: a box by the door is no door."""
 _DEEPEST_M: Final = 1.0
 """No furniture has its middle farther from the floor before it."""
 
@@ -131,7 +133,7 @@ def _at(item: MapObject, place: Footprint) -> MapObject:
 
 def _new(label: str, place: Footprint, known: ObjectMap) -> MapObject:
     """A thing with a name of its own: the label, or where that is taken, with where it stands."""
-    words = re.findall(r"\w+", label.lower()) or ["thing"]
+    words = re.findall(r"\w+", _WHERE.split(label.lower())[0]) or ["thing"]
     by = nearest(place.x_m, place.y_m, known.objects)
     taken = {item.description.lower() for item in known.objects}
     name = f"{label} by {by.description}" if label.lower() in taken and by is not None else label
