@@ -41,9 +41,13 @@ class _Line:
         self._task = asyncio.create_task(self._run(), name=f"sub {self._name}")
 
     def wake(self) -> None:
-        """A message is in the line that was empty."""
+        """A message is in the line that was empty.
+
+        It is handled a turn of the loop later, behind what its sender does now: an engine that tells that a
+        step is over begins the next one first.
+        """
         if threading.get_ident() == self._thread:
-            self._arrived.set()
+            self._loop.call_soon(self._arrived.set)
         else:
             with contextlib.suppress(RuntimeError):  # the loop has ended, and nobody waits for messages
                 self._loop.call_soon_threadsafe(self._arrived.set)
