@@ -48,10 +48,7 @@ def read(parse: Parse, lexicon: Lexicon) -> Reading:
         mine = [filler for filler, span in zip(fillers, spans, strict=True) if span.owner == number]
         wishes.append(_wish(parse, verb, mine, lexicon))
     loose = [filler for filler, span in zip(fillers, spans, strict=True) if span.owner is None]
-    steered = {filler.role for filler in loose} >= {
-        "H",
-        "N",
-    } and not parse.verbs  # "to the left thirty degrees"
+    steered = {*"HN"} <= {filler.role for filler in loose} and not parse.verbs  # "left thirty degrees"
     implied = [_implied(parse, filler, lexicon, steered) or _asked_for(parse, filler) for filler in loose]
     implied_wishes = _joined([wish for wish in implied if wish is not None])
     rest = tuple(filler for filler, wish in zip(loose, implied, strict=True) if wish is None)

@@ -24,17 +24,9 @@ from parley.world.object_map import MapObject
 from parley.world.whereabouts import called
 
 __all__ = [
-    "Change",
-    "Visit",
-    "before_all",
-    "change_of",
-    "is_against",
-    "moved",
-    "reordered",
-    "texts_of",
-    "visits",
+    "Change", "Visit", "before_all", "change_of", "is_against", "moved", "reordered", "texts_of", "visits",
     "visits_of",
-]
+]  # fmt: skip
 
 _OPEN: Final = ("queued", "running", "waiting", "paused", "failed")
 _ORDINALS: Final = frozenset({

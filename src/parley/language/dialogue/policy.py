@@ -21,14 +21,7 @@ from parley.language.builtin.saying import which_one
 from parley.language.builtin.structure import Part
 from parley.language.builtin.tokens import Token, tokenize
 from parley.language.dialogue.answers import answer, differences
-from parley.language.dialogue.changes import (
-    Change,
-    before_all,
-    change_of,
-    reordered,
-    texts_of,
-    visits,
-)
+from parley.language.dialogue.changes import Change, before_all, change_of, reordered, texts_of, visits
 from parley.language.dialogue.choosing import choice_of
 from parley.language.dialogue.emergency import NO_ALARM, emergency, is_emergency
 from parley.language.dialogue.facts import (
