@@ -28,6 +28,7 @@ _JOINED = 2
 """So many marks and words at most stand between what is listed: ", and"."""
 _FROM_THERE = frozenset({"from", "there", "here", "on"})
 _POINTING = frozenset({"to", "it", "there", "that", "one"})
+_SUCH = frozenset({"for", "a", "an", "that", "who", "which"})
 _HERE = frozenset({"here", "there", "where", "you", "are"})
 _TAKING = frozenset({"take", "grab", "pick", "collect", "lift"})
 
@@ -150,13 +151,8 @@ def _seen(wish: Wish) -> Wish:
     said = wish.all("K")[0]
     if wish.frame == "SAY" and (wish.has("XT") or said.words[0] not in _TOLD_OF):
         return wish
-    states = {"is", "are"} & {*said.words[1:-1]} and said.words[0] not in _TOLD_OF | {
-        "for",
-        "that",
-        "a",
-        "an",
-    }
-    if wish.frame == "LOOK" and states:  # "verify the bay is clear"
+    plain = said.words[0] not in _TOLD_OF and not {*said.words} & _SUCH
+    if wish.frame == "LOOK" and plain and {"is", "are"} & {*said.words[1:-1]}:  # "verify the bay is clear"
         words, text = ("whether", *said.words), f"whether {said.text}"
         stated = replace(said, head=said.head + 1, words=words, said=text)
         return replace(wish, fillers=tuple(stated if f is said else f for f in wish.fillers))
