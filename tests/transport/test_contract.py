@@ -107,10 +107,13 @@ async def test_names_with_and_without_the_leading_slash_are_the_same(network: Ne
 async def test_a_late_subscriber_gets_the_last_message_of_a_latched_topic_and_then_new_ones(
     network: Network,
 ) -> None:
+    early: list[str] = []
     heard: list[str] = []
+    await network.there.subscribe(LATCHED, lambda message: early.append(message.data))
     sender = network.here.publisher(LATCHED)
     sender.publish(String("old"))
     sender.publish(String("last"))
+    await until(lambda: "last" in early)  # sent, and not only on its way
     await network.there.subscribe(LATCHED, lambda message: heard.append(message.data))
     await until(lambda: heard)
     sender.publish(String("new"))
