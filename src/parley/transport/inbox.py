@@ -22,11 +22,6 @@ M = TypeVar("M")
 log = structlog.get_logger(__name__)
 
 
-_FLOOD = 10_000
-"""Of a topic of which so many may wait, as an engine's transitions, none is urgent: whoever tells that a step
-is over begins the next one first."""
-
-
 class _Line:
     """Inboxes whose messages are handled as they came, one after the other, and the task for it."""
 
@@ -45,19 +40,13 @@ class _Line:
     def _work(self) -> None:
         self._task = asyncio.create_task(self._run(), name=f"sub {self._name}")
 
-    def wake(self, *, later: bool) -> None:
-        """A message is in the line that was empty.
-
-        Args:
-            later: It is handled a turn of the loop later, behind what its sender does now.
-        """
-        if threading.get_ident() != self._thread:
+    def wake(self) -> None:
+        """A message is in the line that was empty."""
+        if threading.get_ident() == self._thread:
+            self._arrived.set()
+        else:
             with contextlib.suppress(RuntimeError):  # the loop has ended, and nobody waits for messages
                 self._loop.call_soon_threadsafe(self._arrived.set)
-        elif later:
-            self._loop.call_soon(self._arrived.set)
-        else:
-            self._arrived.set()
 
     async def _run(self) -> None:
         while True:
@@ -130,7 +119,7 @@ class Inbox(Generic[M]):
             self._queue.append(message)
             line.turns.append(self)
         if was_empty:
-            line.wake(later=self._topic.qos.depth >= _FLOOD)
+            line.wake()
         if full:
             self.lose(1)
 
