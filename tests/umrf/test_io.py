@@ -424,6 +424,16 @@ def test_the_form_of_planners_keeps_exit_conditions_and_what_is_not_required() -
     assert raw["actions"][0]["input_parameters"]["x"]["pvf_required"] is False
 
 
+def test_a_graph_without_a_name_is_refused_though_its_text_is_known_but_for_that() -> None:
+    def text(name: str, inside: str) -> str:
+        action = {"name": "Say", "type": "sync", "gui_attributes": {"graph_name": inside}}
+        return json.dumps({"graph_name": name, "actions": [action]})
+
+    open_graph(text("g", ""))[1]()
+    with pytest.raises(GraphRefusedError):
+        open_graph(text("", "g"))[1]()
+
+
 @pytest.mark.parametrize(
     "name", ["g", "graph", "graph_name", ":", " ", "jäär", 'a "quoted" one', "back\\slash"]
 )

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import re
+import subprocess
+import sys
 from collections.abc import Iterator
 from importlib import resources
 from pathlib import Path
@@ -91,3 +94,21 @@ def test_weights_and_data_belong_together() -> None:
     card = json.loads((folder / "card.json").read_text(encoding="utf-8"))
     weights = hashlib.sha256((folder / "tagger.onnx").read_bytes()).hexdigest()
     assert (card["data_sha256"], card["weights_sha256"]) == (data_hash(), weights), "run make train"
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [("order\t{go:GO} (G to the *box)\n", "1 sentences, 1 frames"), ("order\t{go:FLY}\n", "line 1")],
+)
+def test_a_file_is_checked_from_the_command_line(tmp_path: Path, text: str, said: str) -> None:
+    file = tmp_path / "mine.txt"
+    file.write_text(text, encoding="utf-8")
+    done = checked(str(file))
+    assert said in done.stdout + done.stderr and done.returncode == ("line" in said)
+    assert "usage" in checked().stderr
+
+
+def checked(*arguments: str) -> subprocess.CompletedProcess[str]:
+    where = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
+    command = [sys.executable, "-m", "parley_train.markup", *arguments]
+    return subprocess.run(command, capture_output=True, text=True, env=where, check=False)

@@ -99,17 +99,18 @@ def open_graph(text: str) -> tuple[str, Callable[[], Graph]]:
     Raises:
         GraphRefusedError: It is no JSON object. Reading the rest raises `UnreadableGraphError`.
     """
-    named = list(_NAMED.finditer(text)) if len(text) <= KEPT_CHARS and "\\" not in text else []
-    content = text[: named[0].start(1)] + text[named[0].end(1) :] if len(named) == 1 else ""
+    alone = len(text) <= KEPT_CHARS and "\\" not in text and text.count('"graph_name"') == 1
+    named = _NAMED.search(text) if alone else None
+    content = text[: named.start(1)] + text[named.end(1) :] if named is not None else ""
     known = _read.get(content)
-    if known is not None:
-        name = named[0][1]
+    if known is not None and named is not None:
+        name = named[1]
         return name, lambda: replace(known, name=name)
     raw = load_object(text, "graph")
 
     def read() -> Graph:
         graph = read_loaded(raw)
-        if content and graph.name == named[0][1]:
+        if named is not None and graph.name == named[1]:
             if len(_read) == KEPT_GRAPHS:
                 _read.clear()
             _read[content] = graph

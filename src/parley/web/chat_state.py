@@ -229,15 +229,11 @@ class ChatBook:
         asked = self.entries.get(key)
         if asked is None or asked.question == "open" or asked.answer_id == answer_id:
             return False
-        return asked.question != "" or any(
-            one.who == "operator" and one.seq > asked.seq and self._concerned(one) & set(asked.targets)
-            for one in self.entries.values()
-        )
-
-    def _concerned(self, said: ChatEntry) -> set[str]:
-        """Whom a message was said to, and who else replied to it as they were called in it."""
-        replies = (one.targets for one in self.entries.values() if one.reply_to == said.id)
-        return {*said.targets, *(name for targets in replies for name in targets)}
+        later = [one for one in self.entries.values() if one.seq > asked.seq]
+        orders = {one.id for one in later if one.who == "operator"}
+        # Whom it was said to, or who replied to it as they were called in it.
+        about = (one for one in later if one.id in orders or one.reply_to in orders)
+        return asked.question != "" or any(set(one.targets) & set(asked.targets) for one in about)
 
     def _question_of(self, robot: str, wanted: str) -> str | None:
         """The question of `robot` that an answer settles: the wanted one, else the newest."""

@@ -45,6 +45,7 @@ def places(said: str, **more: object) -> list[str]:
         ("inspect bays 1 and 2, then both cranes", ["bay 1", "bay 2", "grey crane", "white crane"]),
         ("look at bay 1 and then the white one", ["bay 1", "white crane"]),
         ("check bay 1, then bay 2", ["bay 1", "bay 2"]),
+        ("visit the grey crane, finish at the white crane", ["grey crane", "white crane"]),
         ("go to the silo the depot and bay 2", ["silo", "depot", "bay 2"]),
         ("finish at the depot but start at bay 1", ["bay 1", "depot"]),
     ],

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from parley import files
 from parley.errors import FileFormatError
 from parley.language.builtin.labels import ACTS, FRAMES, ROLES, Act, Mode, Move, Role
 from parley.language.builtin.tokens import tokenize
@@ -192,10 +193,12 @@ class _Reader:
 
 def main() -> None:
     """Check a file of sentences: `python -m parley_train.markup FILE`."""
+    if len(sys.argv) != 2:
+        sys.exit("usage: python -m parley_train.markup FILE")
     file = Path(sys.argv[1])
     try:
-        sentences = list(read_text(file.read_text("utf-8"), file.name))
-    except (FileFormatError, OSError, UnicodeDecodeError) as error:
+        sentences = list(read_text(files.read_text(file), file.name))
+    except FileFormatError as error:
         sys.exit(str(error))
     frames = {trigger.frame for sentence in sentences for trigger in sentence.triggers}
     sys.stdout.write(f"{len(sentences)} sentences, {len(frames)} frames: they can be read\n")

@@ -19,6 +19,7 @@ from parley.language.builtin.spans import Filler
 from parley.language.builtin.speaking import followed, spoken
 from parley.language.builtin.structure import Part
 from parley.language.builtin.things import Mention, head_of, link
+from parley.language.builtin.tokens import TITLES
 from parley.language.builtin.wishes import Wish
 from parley.messages.status import Kind
 from parley.umrf.kinds import is_word_for, parameters_of
@@ -26,7 +27,6 @@ from parley.world.object_map import MapObject
 
 __all__ = ["Builder"]
 
-_TITLES = frozenset({"mr", "mrs", "ms", "miss", "dr", "sir", "madam"})
 _LEFT_OUT_OF = "I do not know what “{}” is left out of. Can you say it otherwise?"
 _LOGIC = {"C": "a condition", "W": "a time"}
 _MOST_TIMES = 10
@@ -387,7 +387,7 @@ class Builder(Doing):
         if "S" in values and wish.frame == "GIVE" and "TAKE" not in self.skills:
             return Ask("I cannot pick things up.")
         said = wish.all("T")[0].words
-        if said[0] in _TITLES or is_somebody(said[wish.all("T")[0].head]):
+        if said[0] in TITLES | {"miss"} or is_somebody(said[wish.all("T")[0].head]):
             return Ask(f"I do not pick up people. What shall I do with {thing.said}?")
         if thing.things and wish.frame in ("GIVE", "PUT") and all(map(self._is_place, thing.things)):
             return Ask(f"I cannot bring {thing.said}. What shall I do there?")

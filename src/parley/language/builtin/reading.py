@@ -58,7 +58,7 @@ def read(parse: Parse, lexicon: Lexicon) -> Reading:
         rest = tuple(filler for filler in rest if filler not in where)
     ordered = sorted([*wishes, *implied_wishes], key=lambda wish: wish.start)
     wanted = _without_openers(_once([retyped(wish, lexicon) for wish in ordered]), parse)
-    wanted = _in_order(_led(_shared(wanted)))
+    wanted = _in_order(_led(_shared(wanted)), lexicon)
     spread = [part for wish in wanted for part in _spread(wish)]
     idle = _left_over(parse, lexicon)
     manner = tuple(word for word in idle if word.lower() in lexicon.classes["manner"])
@@ -314,14 +314,16 @@ def _led(wishes: list[Wish]) -> list[Wish]:
     return found
 
 
-def _in_order(wishes: list[Wish]) -> list[Wish]:
+def _in_order(wishes: list[Wish], lexicon: Lexicon) -> list[Wish]:
     """With where to begin first and where to end last: "finish at the desk but start at the gate"."""
     turn = {"start": 0, "begin": 0, "finish": 2, "end": 2}
     places = [wish for wish in wishes if wish.frame == "GO" and wish.verb.split(" ")[0] in turn]
     if not places or any(wish.frame != "GO" or wish.negated for wish in wishes):
         return wishes
-    named = [word for wish in places for f in wish.fillers for word in f.words[-1:]]
-    kept = [w for w in wishes if w in places or not any(f.words[-1] in named for f in w.fillers)]
+    small = lexicon.classes["prepositions"] | lexicon.classes["determiners"]
+    names = [{tuple(word for word in f.words if word not in small) for f in wish.fillers} for wish in wishes]
+    ends = {name for wish, called in zip(wishes, names, strict=True) if wish in places for name in called}
+    kept = [w for w, called in zip(wishes, names, strict=True) if w in places or not called & ends]
     return sorted(kept, key=lambda wish: turn.get(wish.verb.split(" ")[0], 1))
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from parley.umrf.kinds import is_word_for
 
-__all__ = ["Token", "point_of", "spoken", "tokenize"]
+__all__ = ["TITLES", "Token", "point_of", "spoken", "tokenize"]
 
 _POINT = re.compile(r"\(\s*(-?\d+(?:\.\d+)?)\s*[,;]\s*(-?\d+(?:\.\d+)?)\s*\)")
 _WORD = re.compile(
@@ -51,7 +51,7 @@ def tokenize(text: str) -> tuple[Token, ...]:
             at += 1
             continue
         found.append(Token(match[0], match.start(), match.end()))
-        titled = match[0].lower() in _TITLES and text[match.end() : match.end() + 1] == "."
+        titled = match[0].lower() in TITLES and text[match.end() : match.end() + 1] == "."
         at = match.end() + titled  # no sentence ends there
     return tuple(found)
 
@@ -62,7 +62,8 @@ def point_of(words: Sequence[str]) -> tuple[float, float] | None:
     return (float(found[0][1]), float(found[0][2])) if len(found) == 1 else None
 
 
-_TITLES = frozenset({"mr", "mrs", "ms", "dr", "prof"})
+TITLES = frozenset({"mr", "mrs", "ms", "dr", "prof"})
+"""What stands before a name, with a point or without."""
 _HUM = re.compile(r"u+h+m*|u+m+|h+m+|m+h*m+|e+r+m*|a+h+|o+h+|e+h+|([a-z])\1{1,}|xxx", re.IGNORECASE)
 
 
