@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import json
+import os
+import pty
 import subprocess
 import sys
 from contextlib import redirect_stderr, redirect_stdout
@@ -305,3 +307,30 @@ def test_world_is_checked_and_wrong_fields_are_named(tmp_path: Path) -> None:
     assert done.returncode == 2
     assert "world.yaml" in done.stderr
     assert "things[0]" in done.stderr
+
+
+QUESTIONS = [
+    ("people", "remove", "Kim", "--data", "."),
+    ("robot", "check", "examples/own_robot.py:Cart"),
+]
+
+
+@pytest.mark.parametrize("words", QUESTIONS, ids=lambda words: words[0])
+def test_where_nobody_can_say_yes_a_question_names_the_option_for_it(words: tuple[str, ...]) -> None:
+    done = parley(*words)
+    assert (done.returncode, "repeat with --yes" in done.stderr) == (2, True)
+
+
+@pytest.mark.parametrize("answer", [b"n\r", b"\x04"], ids=["no", "Ctrl-D"])
+def test_a_question_that_is_not_answered_with_yes_does_nothing(answer: bytes) -> None:
+    ours, theirs = pty.openpty()
+    with subprocess.Popen(
+        [sys.executable, "-m", "parley", *QUESTIONS[1]], stdin=theirs, stdout=theirs, stderr=subprocess.PIPE
+    ) as asking:
+        while b"[y/N]" not in os.read(ours, 1024):
+            pass
+        os.write(ours, answer)
+        assert asking.communicate(timeout=20)[1].split(b"parley: ")[1:] == [b"nothing was done\n"]
+    assert asking.returncode == 1
+    os.close(ours)
+    os.close(theirs)

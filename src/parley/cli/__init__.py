@@ -111,6 +111,9 @@ def run(app: typer.Typer) -> int:
         code = app(standalone_mode=False)
     except typer.Exit as leaving:
         code = leaving.exit_code
+    except typer.Abort:  # Ctrl-D where something was asked
+        typer.echo()
+        return fail("nothing was done", code=1)
     except TransportError as error:
         return fail(str(error), code=3)
     except ParleyError as error:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import base64
 import os
-import sys
 from collections.abc import Awaitable, Callable
 from pathlib import Path
 from typing import Annotated, TypeVar
 
 import typer
 
-from parley.cli.on_loop import interruptible, on_loop
+from parley.cli.confirm import confirm
+from parley.cli.on_loop import on_loop
 from parley.cli.output import emit_json, fail, quiet_logs
 from parley.clock import WallClock
 from parley.errors import ConfigError
@@ -119,7 +119,7 @@ def forget(
     yes: YesOption = False,
 ) -> None:
     """Forget a memory; the history keeps it. Exit code 1 if there is none."""
-    _confirm(f"Forget {name!r}?", yes)
+    confirm(f"Forget {name!r}?", yes=yes)
     if not _with_store(data, file, lambda store: store.remove(name, scope)):
         raise typer.Exit(fail(f"nothing is remembered under the name {name!r}", code=1))
 
@@ -159,7 +159,7 @@ def export(
         typer.echo(text, nl=False)
         return
     if target.exists():
-        _confirm(f"Replace {target}?", yes)
+        confirm(f"Replace {target}?", yes=yes)
     _write(target, text)
 
 
@@ -173,7 +173,7 @@ def import_memories(
 ) -> None:
     """Take over exported memories: of one name the later fact wins, the other goes to the history."""
     exported = read_export(source)
-    _confirm(f"Take over {len(exported.memories)} memories?", yes)
+    confirm(f"Take over {len(exported.memories)} memories?", yes=yes)
     counts = _with_store(
         data, file, lambda store: store.merge(exported.memories, exported.history), create=True
     )
@@ -215,17 +215,6 @@ def _show(entry: MemoryEntry, as_json: bool) -> None:
     scope = f" [{entry.scope}]" if entry.scope else ""
     content = entry.data if entry.type == "text" else f"(a picture) {entry.info}"
     typer.echo(f"{entry.name}{scope}: {content}")
-
-
-def _confirm(question: str, yes: bool) -> None:
-    if yes:
-        return
-    if not sys.stdin.isatty():
-        raise ConfigError(f"{question} There is nobody to ask; repeat with --yes")
-    with interruptible():
-        agreed = typer.confirm(question)
-    if not agreed:
-        raise typer.Exit(1)
 
 
 def _read_image(path: Path) -> str:

@@ -9,6 +9,7 @@ from typing import Annotated, TypeVar
 
 import typer
 
+from parley.cli.confirm import confirm
 from parley.cli.on_loop import interruptible, on_loop
 from parley.cli.output import emit_json, quiet_logs
 from parley.clock import WallClock
@@ -101,8 +102,7 @@ def remove(
     yes: Annotated[bool, typer.Option("--yes", "-y", help="Do not ask.")] = False,
 ) -> None:
     """Remove an account; its devices are signed out at once."""
-    if not yes and not typer.confirm(f"Remove the account of {name}?"):
-        raise typer.Exit(1)
+    confirm(f"Remove the account of {name}?", yes=yes)
     _with_store(data, lambda store: store.remove(name, _me()))
     typer.echo(f"{name} has no account any more.")
 

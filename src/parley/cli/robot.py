@@ -14,8 +14,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Final, cast, get_args
 
 import typer
 
-from parley.cli.on_loop import interruptible, on_loop
-from parley.cli.output import emit_json, fail, quiet_logs
+from parley.cli.confirm import confirm
+from parley.cli.on_loop import on_loop
+from parley.cli.output import emit_json, quiet_logs
 from parley.clock import WallClock
 from parley.config import SystemConfig
 from parley.demos.catalogue import DEMOS, demo_folder
@@ -75,11 +76,7 @@ def check(
     quiet_logs()
     settings = SystemConfig() if config is None else SystemConfig.load(config)
     made = made_robot(found_class(robot, settings), name)
-    if not yes:
-        with interruptible():
-            yes = typer.confirm(f"{made.name} will drive forward, at most two metres. Is there room?")
-    if not yes:
-        raise typer.Exit(fail("nothing was done", code=1))
+    confirm(f"{made.name} will drive forward, at most two metres. Is there room?", yes=yes)
     broken = on_loop(_check(made, world, json))
     raise typer.Exit(1 if broken else 0)
 
