@@ -12,7 +12,7 @@ from typing import Any
 from parley.actions.context import ActionContext
 from parley.clock import Clock, SimClock
 from parley.language.base import Language
-from parley.language.scripted import ScriptedLanguage
+from parley.language.llm.scripted import ScriptedLanguage
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage
 from parley.robots.simulated import SimulatedRobot

@@ -23,7 +23,7 @@ from parley.engine.journal import Journal
 from parley.engine.runs import GraphRuns
 from parley.errors import ActionFailure, FailureCode
 from parley.gate.rule_talk import RuleTalk
-from parley.language.scripted import ScriptedLanguage
+from parley.language.llm.scripted import ScriptedLanguage
 from parley.memory.proposals import ProposalStore
 from parley.messages import ros, topics
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand

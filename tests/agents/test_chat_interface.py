@@ -16,7 +16,7 @@ from parley.agents.chat.texts import MAX_CHARS, is_never_mind
 from parley.clock import WallClock
 from parley.demos.observer import Observer
 from parley.errors import FailureCode, LanguageError
-from parley.language.scripted import ScriptedLanguage
+from parley.language.llm.scripted import ScriptedLanguage
 from parley.messages import topics
 from parley.messages.chat import (
     ActionCall,

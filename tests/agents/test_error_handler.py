@@ -14,7 +14,7 @@ from parley.agents.recovery.error_handler import ErrorHandler
 from parley.clock import WallClock
 from parley.demos.observer import Observer
 from parley.errors import FailureCode, LanguageError
-from parley.language.scripted import ScriptedLanguage
+from parley.language.llm.scripted import ScriptedLanguage
 from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.failure import ErrorHandlingMessage

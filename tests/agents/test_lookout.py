@@ -14,7 +14,7 @@ from parley.agents.base import Node
 from parley.agents.memory import MemoryNode
 from parley.agents.rules.lookout import Lookout
 from parley.clock import SimClock
-from parley.language.scripted import ScriptedLanguage
+from parley.language.llm.scripted import ScriptedLanguage
 from parley.memory.store import MemoryStore
 from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput

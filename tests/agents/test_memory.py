@@ -13,7 +13,7 @@ import pytest
 from parley.agents.memory import MemoryNode
 from parley.clock import WallClock
 from parley.errors import LanguageError, TransportError
-from parley.language.scripted import ScriptedLanguage
+from parley.language.llm.scripted import ScriptedLanguage
 from parley.memory.answer_size import LEFT_OUT
 from parley.memory.client import ask_memory
 from parley.memory.embedder import Embedder

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from parley.config import SystemConfig
-from parley.language.scripted import ScriptedLanguage
+from parley.language.llm.scripted import ScriptedLanguage
 from parley.messages import topics
 from parley.messages.chat import ChatInput
 from parley.messages.principal import Role, person

@@ -21,7 +21,7 @@ from parley.demos.observer import Observer
 from parley.gate.rule_talk import RuleTalk
 from parley.language.base import Language, Picture, Situation
 from parley.language.builtin.engine import BuiltinLanguage
-from parley.language.scripted import ScriptedLanguage
+from parley.language.llm.scripted import ScriptedLanguage
 from parley.memory.store import MemoryStore
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatImage, ChatInput, SystemCommand

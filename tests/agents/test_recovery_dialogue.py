@@ -16,7 +16,7 @@ from parley.agents.recovery.repair import MAX_NOTED
 from parley.clock import SimClock, WallClock
 from parley.demos.observer import Observer
 from parley.errors import TransportError
-from parley.language.scripted import ScriptedLanguage
+from parley.language.llm.scripted import ScriptedLanguage
 from parley.memory.incidents import IncidentStore
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatImage, ChatInput, SystemCommand

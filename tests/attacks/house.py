@@ -18,7 +18,7 @@ from parley.config import SystemConfig
 from parley.errors import ActionFailure, FailureCode
 from parley.language.base import Language
 from parley.language.builtin.engine import BuiltinLanguage
-from parley.language.scripted import ScriptedLanguage
+from parley.language.llm.scripted import ScriptedLanguage
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatImage, ChatInput
 from parley.messages.memory import AddToMemory, MemoryEntry, RemoveMemory

@@ -14,7 +14,7 @@ from parley.demos.catalogue import load_demo
 from parley.demos.story import Variant
 from parley.language.base import Language
 from parley.language.builtin.engine import BuiltinLanguage
-from parley.language.scripted import ScriptedLanguage
+from parley.language.llm.scripted import ScriptedLanguage
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, SystemCommand
 from parley.messages.principal import person

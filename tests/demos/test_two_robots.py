@@ -10,7 +10,7 @@ from parley.actions.context import ActionContext
 from parley.demos.catalogue import load_demo
 from parley.language.base import DraftHandler, Situation
 from parley.language.builtin.engine import BuiltinLanguage
-from parley.language.scripted import ScriptedLanguage
+from parley.language.llm.scripted import ScriptedLanguage
 from parley.messages.chat import ActionCall, ChatAction
 from parley.sim.world_file import RobotEntry, WorldFile
 from parley.system import System

@@ -15,7 +15,7 @@ from PIL import Image
 from parley.agents.memory import MemoryNode
 from parley.clock import WallClock
 from parley.engine.services import ContextServices
-from parley.language.scripted import ScriptedLanguage
+from parley.language.llm.scripted import ScriptedLanguage
 from parley.memory.store import MemoryStore
 from parley.messages import topics
 from parley.messages.chat import ChatFeedback, ChatInput

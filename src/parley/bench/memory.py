@@ -14,7 +14,7 @@ import numpy as np
 
 from parley.agents.memory import MemoryNode
 from parley.clock import WallClock
-from parley.language.scripted import ScriptedLanguage
+from parley.language.llm.scripted import ScriptedLanguage
 from parley.memory.client import ask_memory
 from parley.memory.embedder import Embedder
 from parley.memory.meanings import Meanings

@@ -23,7 +23,7 @@ from parley.actions.context import ActionContext
 from parley.config import SystemConfig
 from parley.demos.observer import Observer
 from parley.engine.presence import REST_LINEAR_MPS
-from parley.language.scripted import ScriptedLanguage
+from parley.language.llm.scripted import ScriptedLanguage
 from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction, ChatInput
 from parley.messages.principal import person

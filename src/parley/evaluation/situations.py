@@ -15,8 +15,8 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, TypeAdapter,
 
 from parley.errors import FailureCode, InvalidMessageError, LanguageError
 from parley.language.base import ErrorSituation, Language, Situation, Turn
-from parley.language.completing import completed_answer
 from parley.messages.chat import SYSTEM_COMMANDS, ActionCall, ChatAction
+from parley.messages.completing import completed_answer
 from parley.messages.memory import MemoryEntry
 from parley.messages.pvf import NATIVE_TYPES
 from parley.messages.status import ActionInfo, ParameterInfo

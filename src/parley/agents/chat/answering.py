@@ -22,12 +22,12 @@ from parley.clock import Clock
 from parley.errors import LanguageError
 from parley.gate.orders import UNSURE_OF_ALL, Admitted, Heard, admit
 from parley.language.base import Language, Situation
-from parley.language.completing import bound_to_steps, completed_answer
 from parley.language.dialogue.facts import kept_in_mind
 from parley.language.dialogue.state import Asked
 from parley.memory.sayings import for_oneself
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
+from parley.messages.completing import bound_to_steps, completed_answer
 from parley.messages.status import ActionInfo, PlanProposal, PlanRuling
 from parley.sentences import together
 

@@ -13,8 +13,8 @@ from parley.agents.planner.flow import check_flow, placed_steps, unrolled
 from parley.agents.planner.graph import build_graph
 from parley.agents.planner.steps import Step, previous, stages
 from parley.errors import Problem
-from parley.language.completing import completed
 from parley.messages.chat import ActionCall
+from parley.messages.completing import completed
 from parley.messages.pvf import Parameter
 from parley.messages.status import ActionInfo
 from parley.umrf.action import ActionSpec

@@ -11,7 +11,6 @@ from typing import Any
 
 from parley.errors import LanguageError, Problem
 from parley.language.base import ErrorSituation, Grounding, InspectionReport, ReplyReading, Situation
-from parley.language.completing import completed
 from parley.language.llm.answers import (
     MAX_VALUE_CHARS,
     CommandAnswer,
@@ -25,6 +24,7 @@ from parley.language.llm.answers import (
 )
 from parley.language.prompts.labels import memory_of, step_label, step_of
 from parley.messages.chat import ActionCall, ChatAction, Flow, FlowIf, SystemCommand
+from parley.messages.completing import completed
 from parley.messages.memory import MemoryEntry
 from parley.messages.pvf import Parameter, fits_type
 from parley.messages.status import ActionInfo
