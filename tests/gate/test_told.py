@@ -218,3 +218,8 @@ def test_a_room_is_what_the_map_shows_as_that_room() -> None:
     )  # fmt: skip
     assert isinstance(draft, DraftRule)
     assert (draft.rule.name, draft.rule.polygon, draft.rule.rectangle) == ("Ward", corners, None)
+
+
+def test_a_rule_for_a_case_that_nobody_can_measure_is_not_taken_for_a_place() -> None:
+    made = told("never enter the hall when I sleep")
+    assert isinstance(made, NotUnderstood) and "not “when i sleep”" in made.sentence

@@ -389,7 +389,15 @@ def _area(words: str, world: _World, margin_m: float = _MARGIN_M) -> dict[str, A
     return _unknown(words)
 
 
+_CASE: Final = re.compile(r".+? (?P<case>(?:when|while|whenever|if|unless|until|as long as) .+)")
+
+
 def _unknown(words: str) -> NotUnderstood:
+    if (case := _CASE.fullmatch(words)) is not None:
+        text = sentence(
+            "I can keep a rule always or from one time of day to another, not “{words}”.", words=case["case"]
+        )
+        return NotUnderstood(text)
     return NotUnderstood(
         sentence("I do not know where “{words}” is. You can draw it on the page Rules.", words=words)
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from types import TracebackType
 from typing import Self
 
@@ -29,7 +29,7 @@ from parley.language.builtin.recovery import Repairer
 from parley.language.builtin.reply import explained, to_chat
 from parley.language.builtin.skills import SkillTable
 from parley.language.builtin.spans import Parse
-from parley.language.builtin.steady import steadily
+from parley.language.builtin.steady import Names, named, steadily
 from parley.language.builtin.structure import Part
 from parley.language.builtin.tagger import shipped_tagger
 from parley.language.builtin.things import head_of, link
@@ -126,9 +126,10 @@ class BuiltinLanguage:
         if (taught := own_words(situation, self._lexicon, self.decide)) is not None:
             return taught
         situation = replace(situation, objects=with_names(situation.objects, taught_in(situation.memory)))
-        parts = self._parts(situation.message)
+        names = _names(tuple(item.description for item in situation.objects))
+        parts = self._parts(situation.message, names)
         if len(parts) > 1 and is_promised(situation.message, situation.catalogue):
-            parsed, _ = self._read(situation.message)
+            parsed, _ = self._read(situation.message, names)
             parsed = replace(parsed, acts=("order",) * len(parsed.tokens))  # its maker's words for it
             reading = read(parsed, self._lexicon)
             whole = Clause("main", 0, len(parsed.tokens), 0)  # "open the door to the yard" is one deed there
@@ -154,7 +155,7 @@ class BuiltinLanguage:
                 replace(situation, message=text, history=(), objects=objects, dialogue=plain, memory=memory)
             )
 
-        return decide(situation, parts, skills, self._lexicon, self.reading, again)
+        return decide(situation, parts, skills, self._lexicon, partial(self.reading, names=names), again)
 
     def _with_past(self, situation: Situation) -> Situation:
         """With the last order and what was asked about it, where nothing but the turns is known of them."""
@@ -174,34 +175,43 @@ class BuiltinLanguage:
         )
         return replace(situation, dialogue=dialogue)
 
-    def reading(self, text: str) -> Reading:
-        """What a text says, whatever the situation."""
-        return self._read(text)[1]
+    def reading(self, text: str, names: Names = ()) -> Reading:
+        """What a text says, whatever the situation but for the names that are known in it."""
+        return self._read(text, names)[1]
 
-    def _read_text(self, text: str) -> tuple[Parse, Reading]:
+    def _read_text(self, text: str, names: Names = ()) -> tuple[Parse, Reading]:
         tokens = spoken(tokenize(text)) or tokenize(text)
-        found = steadily(shipped_tagger(), tokens, self._lexicon)
+        found = self._steadily(tokens, names)
         if not (found[1].unsteady or found[1].left_over):
             return found
         stop = Token(".", tokens[-1].end, tokens[-1].end)  # it helps with names that nobody knows
-        other = steadily(shipped_tagger(), (*tokens, stop), self._lexicon)
+        other = self._steadily((*tokens, stop), names)
         certain = other[1].wishes and not (other[1].unsteady or other[1].left_over)
         return other if certain else found
 
-    def _parted(self, text: str) -> tuple[Part, ...]:
+    def _steadily(self, tokens: Sequence[Token], names: Names) -> tuple[Parse, Reading]:
+        """What words say; where a known name is what is doubtful, with each name read as one word."""
+        found = steadily(shipped_tagger(), tokens, self._lexicon)
+        inside = {at for start, end in named(tokens, names) for at in range(start, end)}
+        if inside.isdisjoint(_doubtful(tokens, found[1])):
+            return found
+        other = steadily(shipped_tagger(), tokens, self._lexicon, names)
+        return found if not other[1].wishes or _doubtful(tokens, other[1]) else other
+
+    def _parted(self, text: str, names: Names = ()) -> tuple[Part, ...]:
         """The clauses of a message, each read by itself."""
-        parsed, reading = self._read(text)
+        parsed, reading = self._read(text, names)
         found = clauses(parsed, self._lexicon)
         if len(found) == 1:
             return (Part(found[0], parsed, reading, text),)
-        return tuple(self._part(text, clause, parsed) for clause in found)
+        return tuple(self._part(text, clause, parsed, names) for clause in found)
 
-    def _part(self, text: str, clause: Clause, whole: Parse) -> Part:
+    def _part(self, text: str, clause: Clause, whole: Parse, names: Names) -> Part:
         tokens = whole.tokens[clause.start : clause.end]
         if not tokens:
             nothing = Parse((), (), (), (), ())
             return Part(clause, nothing, Reading(frozenset(), (), (), ()), "")
-        parsed, reading = steadily(shipped_tagger(), tokens, self._lexicon)
+        parsed, reading = self._steadily(tokens, names)
         if not parsed.verbs and any(clause.start <= verb.start < clause.end for verb in whole.verbs):
             parsed = whole.part(clause.start, clause.end)
             reading = read(parsed, self._lexicon)
@@ -254,3 +264,18 @@ class BuiltinLanguage:
         """See `Language.read_reply`."""
         said = any(token.is_word for token in tokenize(reply))
         return read_reply(question, reply, choices, self.reading(reply) if said else None)
+
+
+def _doubtful(tokens: Sequence[Token], reading: Reading) -> set[int]:
+    """Where words stand that the tagger is not sure of, that are left over, or are unknown verbs."""
+    words = {word.lower() for text in (*reading.unsteady, *reading.left_over) for word in text.split()}
+    verbs = {wish.start for wish in reading.wishes if wish.witness == "unknown"}
+    return verbs | {at for at, token in enumerate(tokens) if token.low in words}
+
+
+@lru_cache(maxsize=64)
+def _names(called: tuple[str, ...]) -> Names:
+    """The names of several words among those that are known; what ends in a number or letter is read well."""
+    found = {tuple(token.low for token in tokenize(name)) for name in called}
+    several = [name for name in found if len(name) > 1 and len(name[-1]) > 1 and name[-1].isalpha()]
+    return tuple(sorted(several, key=lambda name: (-len(name), name)))

@@ -195,7 +195,7 @@ class Grounder:
         if text[:1].isupper():
             return Ask(f"I do not know where {text} is. Please tell me where.")
         if sought:
-            return Ask(f"I do not know where any “{text}” is. Please tell me where it is.")
+            return Ask(f"I know of no “{text}”. Please tell me where to find it.")
         leads = frame == "GO"
         pose, objects = self.situation.robot_pose, self.situation.objects
         near = sorted(objects, key=lambda item: distance_m(item, pose)) if pose is not None else objects

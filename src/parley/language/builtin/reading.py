@@ -11,6 +11,7 @@ from parley.language.builtin.lexicon import Lexicon, lemmas
 from parley.language.builtin.retyping import looks_here, retyped
 from parley.language.builtin.spans import Filler, Parse, Span, Verb
 from parley.language.builtin.wishes import Wish, Witness
+from parley.umrf.kinds import is_word_for
 
 __all__ = ["Reading", "read"]
 
@@ -163,8 +164,12 @@ def _fills_nothing(parse: Parse, span: Span) -> bool:
 
 
 def _listed_on(parse: Parse, span: Span) -> Span:
-    """With the last of a row of letters or numbers that nothing else claims: "bays 1, 2 and 3"."""
+    """With the last of a row of letters or numbers that nothing else claims: "bays 1, 2 and 3", "bay A"."""
     last, *behind = parse.tokens[span.end - 1 : span.end + 2]
+    taken = [(one.start, one.end) for one in parse.spans] + [(one.start, one.end) for one in parse.verbs]
+    alone = not any(start <= span.end < end for start, end in taken)
+    if behind and alone and _mark(behind[0].text) and is_word_for(last.low, "place"):
+        return replace(span, end=span.end + 1)
     row = [token.low if token.low == "and" else _mark(token.text) for token in (last, *behind)]
     free = all(other.start > span.end + 1 or other.end <= span.end for other in parse.spans)
     if span.role not in "TGL" or row not in (["A", "and", "A"], ["1", "and", "1"]) or not free:
@@ -345,6 +350,9 @@ def _filler(parse: Parse, span: Span, lexicon: Lexicon) -> Filler:
             end -= 1
         if end - start > 2 and parse.tokens[end - 1].low == "there":  # "from the desk there"
             end -= 1
+    asks = next((at for at in range(start, min(start + 2, end)) if parse.tokens[at].low == "where"), end)
+    if span.role in "GLT" and end - asks > 2 and parse.tokens[end - 1].low in lexicon.classes["being"]:
+        start, end = asks + 1, end - 1  # "to where the desk is"
     if span.role in "GLP" and end - start > 2 and parse.tokens[start].low in _ALONG:
         led = parse.tokens[start + 1].low
         start += led in ("to", "at") or led in lexicon.classes["determiners"]  # "down the hall", "up to it"
@@ -466,7 +474,8 @@ def _joined(wishes: list[Wish]) -> list[Wish]:
     return found
 
 
-_MANY = ("T", "G")
+_MANY = ("T", "G", "L")
+_WITHIN = frozenset({"in", "on", "at", "near", "by", "under", "behind", "beside", "inside", "next"})
 _REPEATED = frozenset(
     {"GO", "LOOK", "FIND", "ON", "OFF", "OPEN", "CLOSE", "COUNT", "CLEAN", "TAKE", "BRING", "DO"}
 )
@@ -476,6 +485,10 @@ def _spread(wish: Wish) -> list[Wish]:
     """One wish for each of several goals or things, if that is all that there are several of."""
     for role in _MANY:
         several = wish.all(role)
+        if role == "L" and (
+            wish.frame != "LOOK" or wish.has("T") or any(f.words[0] in _WITHIN for f in several)
+        ):
+            continue  # "in the office near the desk" is one place
         if wish.negated and len(several) == 2 and several[1].start - several[0].end == 1:
             others = tuple(filler for filler in wish.fillers if filler.role != role)
             instead = replace(wish, start=several[1].start, negated=False, fillers=(*others, several[1]))

@@ -37,6 +37,7 @@ def retyped(wish: Wish, lexicon: Lexicon) -> Wish:
     """With the frame that its roles ask for."""
     if wish.frame in ("GO", "TURN"):
         wish = _renamed(wish, "G", "H", [f for f in wish.all("G") if _is_direction(f, lexicon)])
+    wish = _searched(wish)
     if wish.frame in ("SAY", "LOOK", "COUNT"):
         return _seen(wish) if wish.has("K") else _looked_at(wish)
     if wish.frame in ("FIND", "GIVE", "BRING"):
@@ -62,6 +63,15 @@ def retyped(wish: Wish, lexicon: Lexicon) -> Wish:
     if wish.frame == "BRING" and not wish.has("RG") and wish.verb.split(" ")[0] in _TAKING:
         return replace(wish, frame="TAKE")
     return wish
+
+
+def _searched(wish: Wish) -> Wish:
+    """A look at several things, or for something: "check the bay, then the ramp", "search it for crates"."""
+    if wish.frame == "GO" and wish.verb == "search" and wish.has("K"):
+        wish = replace(wish, frame="LOOK")
+    if wish.frame != "LOOK":
+        return wish
+    return _renamed(wish, "G", "T" if wish.has("T") else "L", [*wish.all("G")])
 
 
 def _to_where(wish: Wish) -> Wish:

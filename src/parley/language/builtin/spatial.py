@@ -62,7 +62,8 @@ def picked(
             continue
         family = [item for item in objects if noun in kinds(item)]
         if family and _begins_relation(said, end):
-            found = _of_family(said[:end], said[end:], family, objects, lexicon, pose)
+            found = _whole(said, end, family, lexicon)
+            found = found or _of_family(said[:end], said[end:], family, objects, lexicon, pose)
             if found is not None:
                 return found
     return None
@@ -127,6 +128,17 @@ def _of_family(
     best = ranked[0][0]
     close = [item for value, _, item in ranked if value <= best + abs(best) * (_MARGIN - 1) + 1e-6]
     return Picked(tuple(close))
+
+
+def _whole(words: Sequence[str], end: int, family: Sequence[MapObject], lexicon: Lexicon) -> Picked | None:
+    """What is called by its whole name: "bay A near the post" is not the bay nearest to the post."""
+    said = stems(words)
+    names = [(item, stems(item.description.split())) for item in family]
+    named = [
+        (item, name) for item, name in names if len(said) > len(name) > end and said[: len(name)] == name
+    ]
+    found = [item for item, name in named if words[len(name)] in lexicon.classes["prepositions"]]
+    return Picked((found[0],)) if len(found) == 1 else None
 
 
 def _distance(x_m: float, y_m: float, sign: float = 1.0) -> Callable[[MapObject], float]:

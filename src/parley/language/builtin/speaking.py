@@ -53,6 +53,8 @@ def spoken(wish: Wish, values: MutableMapping[str, Value], grounder: Grounder) -
             return Ask(f"Is {person.said} somebody I can speak to? Please tell me whom you mean.")
         if _ELSEWHERE & {*words[1:]}:
             return Ask(f"I say it where I stand. Where shall I go first, and what shall I say{whom} there?")
+    if verb == "remind" and person is not None and person.argument == "operator":
+        return Ask("I cannot remind you later: I only speak at once. What shall I say now?")
     if verb in _GREETING and not re.search(r"\w", values["X"].argument if "X" in values else ""):
         values["X"] = Value("hello", "hello")
     told = values.get("X")

@@ -14,23 +14,29 @@ from parley.language.builtin.spans import Parse, parse
 from parley.language.builtin.tagger import Scores, Tagger
 from parley.language.builtin.tokens import Token
 
-__all__ = ["steadily"]
+__all__ = ["Names", "named", "steadily"]
+
+Names = Sequence[tuple[str, ...]]
+"""Names of several words, in small letters; the longest first."""
 
 
-def steadily(tagger: Tagger, tokens: Sequence[Token], lexicon: Lexicon) -> tuple[Parse, Reading]:
+def steadily(
+    tagger: Tagger, tokens: Sequence[Token], lexicon: Lexicon, known: Names = ()
+) -> tuple[Parse, Reading]:
     """What words are and say, with those that would say something else behind a "please".
 
     If there are such, more openers are tried: the mean of all is what it says, if most of them say the same.
+    The words of a name that is known are no verbs, whatever they are elsewhere.
     """
-    words = [token.text for token in tokens]
-    plain = tagger.tag(words)
+    words, called = _written_out(tokens), named(tokens, known)
+    plain = tagger.tag(words, called)
     found, reading = _read(tokens, plain, lexicon)
-    polite = _behind(tagger, "okay" if words[0].lower() == "please" else "please", words)
+    polite = _behind(tagger, "okay" if words[0].lower() == "please" else "please", words, called)
     readings = [reading, _read(tokens, polite, lexicon)[1]]
     said = [_said(one, lexicon) for one in readings]
     if said[0] == said[1]:
         return found, replace(reading, unsteady=())
-    more = [_behind(tagger, opener, words) for opener in ("now", "so", "robot")]
+    more = [_behind(tagger, opener, words, called) for opener in ("now", "so", "robot")]
     every = [plain, polite, *more]
     if len({len(scores.act) for scores in every}) > 1:  # longer than the tagger reads
         return found, replace(reading, unsteady=_differing(said, lexicon))
@@ -60,9 +66,31 @@ def _read(tokens: Sequence[Token], scores: Scores, lexicon: Lexicon) -> tuple[Pa
     return found, read(found, lexicon)
 
 
-def _behind(tagger: Tagger, opener: str, words: Sequence[str]) -> Scores:
+def _written_out(tokens: Sequence[Token]) -> list[str]:
+    """The words as the tagger knows them: "Kim's at the desk" is "Kim is at the desk"."""
+    behind = [token.low for token in tokens[1:]] + [""]
+    pairs = zip(tokens, behind, strict=True)
+    return ["is" if token.low == "'s" and after in _WHERE else token.text for token, after in pairs]
+
+
+_WHERE = frozenset(
+    {"in", "on", "at", "by", "near", "under", "behind", "beside", "inside", "next", "here", "there"}
+)
+
+
+def named(tokens: Sequence[Token], known: Names) -> list[tuple[int, int]]:
+    """From where to where a known name of several words stands; a longer one hides those in it."""
+    low, found, at = [token.low for token in tokens], [], 0
+    while at < len(low):
+        size = next((len(name) for name in known if (*low[at : at + len(name)],) == name), 0)
+        found += [(at, at + size)] if size else []
+        at += size or 1
+    return found
+
+
+def _behind(tagger: Tagger, opener: str, words: Sequence[str], named: Sequence[tuple[int, int]]) -> Scores:
     """The scores of words behind an opener, without its own."""
-    scores = tagger.tag([opener, *words])
+    scores = tagger.tag([opener, *words], [(start + 1, end + 1) for start, end in named])
     cut = {field.name: getattr(scores, field.name)[1:] for field in fields(Scores)}
     return Scores(**cut | {"arcs": np.delete(cut["arcs"], 1, axis=1)})
 

@@ -40,8 +40,19 @@ class Tagger:
     session: Any
     pieces: WordPiece
 
-    def tag(self, words: Sequence[str]) -> Scores:
-        """The scores of a sentence's words; of a very long one those of its beginning."""
+    def tag(self, words: Sequence[str], names: Sequence[tuple[int, int]] = ()) -> Scores:
+        """The scores of a sentence's words; of a very long one those of its beginning.
+
+        Args:
+            words: As they were said.
+            names: From where to where a name of several words stands; its last word is read in its place.
+        """
+        inside = {at for start, end in names for at in range(start, end - 1)}
+        read = [at for at in range(len(words)) if at not in inside]
+        scores = self._tagged([words[at] for at in read])
+        return _with_names(scores, read, len(words)) if inside else scores
+
+    def _tagged(self, words: Sequence[str]) -> Scores:
         split = self.pieces.split(words)
         ids = np.array([split.ids], dtype=np.int64)
         given = {
@@ -74,6 +85,24 @@ class Tagger:
         }
         row: Matrix = self.session.run([output], given)[0][0]
         return row
+
+
+def _with_names(scores: Scores, read: Sequence[int], size: int) -> Scores:
+    """The scores of all words: what stands for a name counts for each of its words, as one span."""
+    rows = np.searchsorted(read, np.arange(size))
+    rows = rows[rows < len(scores.act)]
+    later = np.flatnonzero(rows[1:] == rows[:-1]) + 1
+    inner = np.flatnonzero(rows[1:] == rows[:-1])
+    every = {name: getattr(scores, name)[rows] for name in ("act", "frame", "role", "head", "mode", "move")}
+    for name, first in (("frame", 1), ("role", 1)):
+        begun = every[name][later, first : first + 2 * ((every[name].shape[1] - first) // 2) : 2]
+        every[name][later, first + 1 : first + 2 * begun.shape[1] : 2] += begun
+        every[name][later, first : first + 2 * begun.shape[1] : 2] = 0
+    every["head"][inner, 1] = 0
+    columns = [0, *(int(row) + 1 for row in rows)]
+    arcs = scores.arcs[rows][:, columns]
+    arcs[:, later + 1] = 0
+    return Scores(**every, arcs=arcs)
 
 
 def _shares(scores: Matrix) -> Matrix:

@@ -25,6 +25,10 @@ __all__ = ["answer", "deed_words", "differences", "listed", "step_words"]
 _OPEN: Final = ("queued", "running", "waiting", "paused")
 _MOST: Final = 5
 _BESIDE_M: Final = 2.0
+_SPEED: Final = (
+    "I choose my speed by myself and cannot change it for one way. Say “stop” at any time. A limit can be "
+    "made a rule: “do not drive faster than 0.2 m/s”."
+)
 _IDLE: Final = "I have nothing to do at the moment."
 
 
@@ -510,6 +514,8 @@ _TOPICS: Final[dict[str, Callable[[Situation, str], str]]] = {
     "told_all": _told_all, "difference": _difference,
     "hear": lambda situation, about: "Yes, I hear you: I read every word.",
     "how_are_you": lambda situation, about: f"I am well, thank you. {_doing(situation, about)}",
+    "speed": lambda situation, about: _SPEED,
+    "undo": lambda situation, about: f"I cannot take back what is done. {_did(situation, about)}",
     "joke": lambda situation, about: "I am no good at that, sorry: I drive, look and remember.",
 }  # fmt: skip
 """What answers which topic."""

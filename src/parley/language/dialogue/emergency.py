@@ -62,7 +62,7 @@ def emergency(
     """
     if (helps := _helps_robot(situation, lexicon, again)) is not None:
         return helps
-    text = situation.message
+    text = _LOST.sub(r"\g<what>", situation.message)
     acts = reader(text).acts
     pieces = [match.span() for match in _PIECE.finditer(text)] if len(tokens) <= _LONGEST else []
     names = " ".join([*situation.robots, *(item.description for item in situation.objects)]).lower().split()
@@ -72,7 +72,7 @@ def emergency(
     ends = [one for one in ends if {*_danger(one, lexicon)}.isdisjoint(names)]  # a "fire door" is none
     if "question" in acts or not ("alarm" in acts or any(_calls(one, lexicon, reader) for one in ends)):
         return None
-    if _is_calm(situation, tokens, lexicon):
+    if _is_calm(situation, tokens, lexicon) or _does_something(tokens, lexicon):
         return None
     order, told = _beside(text, pieces, lexicon, reader, again)
     serious = [one for one in told if _NUISANCE.search(one) is None]
@@ -103,6 +103,23 @@ def _is_calm(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon) ->
     return len(words) > _CRY and not _danger(situation.message, lexicon) and all(plain)
 
 
+def _does_something(tokens: Sequence[Token], lexicon: Lexicon) -> bool:
+    """Whether it only says what somebody does: "somebody parked here", "someone else will take it"."""
+    low = [token.low for token in tokens if token.is_word]
+    verb = next((at for at in range(1, len(low)) if low[at] not in _HELPING_WORDS), 0)
+    deeds = lexicon.frames_of(low[verb : verb + 1]) - {"BELOC", "STOP"} if verb else frozenset[str]()
+    return bool(deeds) and low[0] in ("somebody", "someone") and not _danger(" ".join(low), lexicon)
+
+
+_HELPING_WORDS: Final = frozenset(
+    {"else", "has", "have", "had", "will", "is", "just", "already", "must", "again", "going", "to"}
+)
+_LOST: Final = re.compile(
+    r"(?P<what>\b(?:can(?:'t|’t|not| not) find|have lost|misplaced|looking for)\b.*?)"
+    r"[\s,;.!?]+(?:so |and )?(?:can|could|would|will) (?:you|u) (?:please )?help\b.*$",
+    re.IGNORECASE,
+)
+"""Help in looking for something is no cry: "I can't find my keys, can you help?"."""
 _CRY: Final = 2
 """So many words a cry has: "Ruth! Ruth!"."""
 

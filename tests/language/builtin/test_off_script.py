@@ -1,0 +1,97 @@
+"""What people said off script, when robots were run by talking to them, class by class."""
+
+from __future__ import annotations
+
+import pytest
+
+from parley.cli.actions import catalogue_with
+from parley.language.builtin.decision import Answer, Ask, Decision, Do, Remember
+from parley.language.builtin.engine import BuiltinLanguage
+from parley.world.object_map import MapObject
+from tests.language.builtin.worlds import situation
+
+ENGINE = BuiltinLanguage()
+SHIPPED = catalogue_with(None)[0].for_robot(("drive", "camera")).infos()
+PLACES = tuple(
+    MapObject(name.replace(" ", "_"), name, x, y)
+    for name, x, y in (
+        ("bay A", 1.0, 1.0), ("bay B", 8.0, 1.0), ("bay C", 8.0, 9.0), ("post 3", 7.0, 9.0),
+        ("turning circle", 3.0, 3.0), ("lift shaft B resting place", 5.0, 5.0),
+    )
+)  # fmt: skip
+
+
+def decided(said: str) -> Decision:
+    return ENGINE.decide(situation(said, objects=PLACES))
+
+
+def places(said: str) -> list[str]:
+    made = decided(said)
+    assert isinstance(made, Do), made
+    return list(dict.fromkeys(str(value) for deed in made.deeds for value in deed.arguments.values()))
+
+
+@pytest.mark.parametrize(
+    ("said", "where"),
+    [
+        ("go to where the turning circle is", ["turning circle"]),
+        ("go to bay A by post 3", ["bay A"]),
+        ("drive to the turning circle, bay A and lift shaft B resting place",
+         ["turning circle", "bay A", "lift shaft B resting place"]),
+    ],
+)  # fmt: skip
+def test_a_place_is_where_its_name_says(said: str, where: list[str]) -> None:
+    assert places(said) == where
+
+
+def test_a_look_goes_on_with_what_is_named_behind_and_then() -> None:
+    made = ENGINE.decide(situation("check bay B and then bay C for bags", objects=PLACES, catalogue=SHIPPED))
+    assert isinstance(made, Do)
+    looked = [str(value) for deed in made.deeds if deed.frame == "LOOK" for value in deed.arguments.values()]
+    assert looked == ["bay B for bags", "bay C for bags"]
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "Somebody else will do the turning circle",
+        "somebody parked in bay A without a permit",
+        "I can't find my gloves, can you help?",
+        "someone took my pen",
+    ],
+)
+def test_what_others_do_and_what_is_looked_for_alarms_nobody(said: str) -> None:
+    made = decided(said)
+    assert not (isinstance(made, Ask) and made.alarms)
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "the old man does not wake up, can you help?",
+        "somebody fell, can you help?",
+        "someone set the bin on fire",
+    ],
+)
+def test_who_is_in_need_is_heard_although_it_is_asked_politely(said: str) -> None:
+    made = decided(said)
+    assert isinstance(made, Ask) and made.alarms
+
+
+def test_where_somebody_is_may_be_said_short() -> None:
+    made = decided("Kim's at the turning circle")
+    assert isinstance(made, Remember) and made.told[0].text == "Kim's at the turning circle"
+
+
+@pytest.mark.parametrize(
+    ("said", "answer"),
+    [("go faster", "rule"), ("undo that", "take back"), ("evening. everything quiet?", "not looked"),
+     ("what did I ask you to do?", "not done anything"), ("did you see anyone?", "not looked")],
+)  # fmt: skip
+def test_small_talk_about_the_robot_is_answered(said: str, answer: str) -> None:
+    made = decided(said)
+    assert isinstance(made, Answer) and answer in made.text
+
+
+def test_a_reminder_is_not_said_at_once() -> None:
+    assert not isinstance(decided("remind me to ring the dentist"), Do)
