@@ -16,7 +16,19 @@ SOURCE = Path(parley.__file__).parent
 
 LAYERS: tuple[frozenset[str], ...] = (
     frozenset(
-        {"errors", "extras", "logs", "clock", "messages", "config", "files", "latest", "opening", "sentences"}
+        {
+            "errors",
+            "extras",
+            "logs",
+            "clock",
+            "messages",
+            "config",
+            "files",
+            "latest",
+            "pairing",
+            "opening",
+            "sentences",
+        }
     ),
     frozenset({"transport", "umrf", "memory", "world"}),
     frozenset({"sim"}),

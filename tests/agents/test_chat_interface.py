@@ -605,14 +605,24 @@ def test_words_that_mean_more_do_not_let_go(text: str) -> None:
     assert not is_never_mind(text)
 
 
-@pytest.mark.parametrize("words", ["no, leave it", "no, not that one", "actually no, forget it, stay"])
-async def test_a_no_in_any_words_goes_to_the_plan_that_waits_before_any_step(room: Room, words: str) -> None:
+@pytest.mark.parametrize(
+    ("words", "state"),
+    [("no, leave it", "running"), ("no, not that one", "running"),
+     ("actually no, forget it, stay", "running"),
+     ("ok leave it", "awaiting_approval"), ("skip it", "awaiting_approval")],
+)  # fmt: skip
+async def test_a_no_in_any_words_goes_to_the_plan_that_waits_before_any_step(
+    room: Room, words: str, state: str
+) -> None:
     heard: asyncio.Queue[PlanDecision] = asyncio.Queue()
     await room.transport.subscribe(
         topics.PLAN_DECISION, lambda said: heard.put_nowait(PlanDecision.model_validate_json(said.data))
     )
     room.observer.publish(topics.PLAN, PlanProposal(id="p1", target="A", steps=(look(),), digest="d"))
-    room.observer.publish(topics.PLAN, running("A", waits=("p1",)))
+    steps = running("A", waits=("p1",)).model_copy(
+        update={} if state == "running" else {"steps": (), "state": state}
+    )
+    room.observer.publish(topics.PLAN, steps)
     await room.observer.until(lambda: "A" in room.observer.plans)
     room.observer.say(words, "A")
     async with asyncio.timeout(5):

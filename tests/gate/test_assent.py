@@ -33,6 +33,8 @@ def test_a_yes_is_a_yes(said: str) -> None:
         "No, thanks.",
         "don't",
         "please don't do it",
+        "ok, leave it",
+        "fine, drop it then",
         "Ei",
         "not yet",
         "No, wait!",

@@ -90,7 +90,14 @@ def assent_of(text: str, names: Sequence[str] = ()) -> bool | None:
         return True
     if said in _NO or bare in _NO:
         return False
-    return _put_together(said.split())
+    spoken = said.split()
+    found = _put_together(spoken)
+    if found is None and spoken[:1] and spoken[0] in _RESIGNED and "no" not in spoken:  # "ok, leave it"
+        return False if _put_together(spoken[1:]) is False else None
+    return found
+
+
+_RESIGNED: Final = frozenset({"ok", "okay", "fine", "well", "right", "alright", "hm", "oh", "ah"})
 
 
 def _put_together(words: Sequence[str]) -> bool | None:

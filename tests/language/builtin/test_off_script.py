@@ -7,6 +7,7 @@ import pytest
 from parley.cli.actions import catalogue_with
 from parley.language.builtin.decision import Answer, Ask, Decision, Do, Remember
 from parley.language.builtin.engine import BuiltinLanguage
+from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
 from tests.language.builtin.worlds import situation
 
@@ -95,3 +96,36 @@ def test_small_talk_about_the_robot_is_answered(said: str, answer: str) -> None:
 
 def test_a_reminder_is_not_said_at_once() -> None:
     assert not isinstance(decided("remind me to ring the dentist"), Do)
+
+
+@pytest.mark.parametrize(
+    ("said", "fact"),
+    [
+        ("I moved the crate to bay B", "the crate is at bay B"),
+        ("I left my gloves in bay B", "I left my gloves in bay B"),
+        ("we've put the parcels in bay C", "we've put the parcels in bay C"),
+    ],
+)
+def test_where_somebody_put_a_thing_is_where_it_is(said: str, fact: str) -> None:
+    made = decided(said)
+    assert isinstance(made, Remember) and [told.text for told in made.told] == [fact]
+    thing = made.told[0].name.split("_")[-2]
+    memory = (MemoryEntry(name=made.told[0].name, data=made.told[0].text),)
+    answered = ENGINE.decide(situation(f"where is the {thing}?", objects=PLACES, memory=memory))
+    assert isinstance(answered, Answer) and made.told[0].text in answered.text
+
+
+def test_what_must_not_be_done_and_is_not_understood_is_asked_about() -> None:
+    made = decided("don't block the turning circle")
+    assert isinstance(made, Ask) and "block" in made.question
+
+
+def test_where_another_robot_is_that_robot_tells() -> None:
+    robots = ("Ada", "Bob")
+    asked = ENGINE.decide(situation("where is Bob?", objects=PLACES, robots=robots))
+    assert isinstance(asked, Answer) and "where are you?" in asked.text
+
+
+def test_who_leaves_is_not_greeted() -> None:
+    made = decided("that's all, goodnight")
+    assert isinstance(made, Answer) and made.text == "Goodbye."

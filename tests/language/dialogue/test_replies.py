@@ -29,6 +29,7 @@ PUT = "Please put the box on me and tell me when it is done."
         ("we are out of boxes", "no"), ("no box here", "no"), ("are you ready?", "aside"), ("later", "aside"),
         ("not yet", "aside"), ("it's not on yet", "aside"), ("I will put it on you in a minute", "aside"),
         ("are you ready", "aside"), ("the box is in the yard", "aside"), ("put it where?", "aside"),
+        ("put the lamp on", "aside"),
     ],
 )  # fmt: skip
 async def test_a_request_is_closed_by_a_yes_or_a_no_alone(reply: str, kind: str) -> None:

@@ -413,7 +413,8 @@ class ChatInterface(Node):
 
     def _refuses(self, target: str, said: ChatInput) -> bool:
         """Whether "leave it" is a no to what the robot asked last, not a step that is to be left out."""
-        asked = self._offered.is_asked(target) or begins_with_no(said.message)
+        waits = self._known.state(target) == "awaiting_approval"  # there is no step yet
+        asked = waits or self._offered.is_asked(target) or begins_with_no(said.message)
         return asked and assent_of(said.message, self._presence.names()) is False
 
     def _work(

@@ -255,6 +255,8 @@ def _alone(
         return dropped
     while deeds and deeds[-1].open_ended:
         deeds.pop()
+    if not deeds and builder.doubts is not None:
+        return builder.doubts[0]
     if not deeds:
         left = " ".join(note.text for note in builder.notes)
         return Answer(f"All right. {left}") if left else Ask("I stay here. What shall I do?")
@@ -359,7 +361,10 @@ def _without_order(
     if "need" in reading.acts:
         return Ask("What can I do about it? Tell me what to bring, or where to go.")
     if reading.acts == {"social"}:
-        return Answer("Hello. Tell me what I can do for you.")
+        leaves = re.search(
+            r"\b(?:good ?night|bye|goodbye|that's (?:all|it)|see you)\b", situation.message.lower()
+        )
+        return Answer("Goodbye." if leaves else "Hello. Tell me what I can do for you.")
     if "told" in reading.acts:
         return Ask("I did not understand that as a fact about where something is. What shall I do with it?")
     return Ask("I did not understand that. What shall I do, and with what?")

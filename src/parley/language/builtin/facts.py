@@ -49,7 +49,8 @@ def told_of(
     found = [*before]
     for wish in reading.wishes:
         thing = wish.one("T")
-        if wish.frame not in ("BELOC", "GO") or wish.act != "told":
+        moved = wish.frame in ("PUT", "BRING") and wish.start > 0
+        if not (moved or wish.frame in ("BELOC", "GO")) or wish.act != "told":
             continue
         said = message[starts[wish.start - 1] : starts[wish.start]].strip().lower() if wish.start else ""
         name = _name(thing, lexicon) if thing is not None else (said,)
@@ -63,6 +64,9 @@ def told_of(
         last = max(filler.end for filler in wish.fillers)
         text = _whole(message, start, starts[last] if last < len(starts) else len(message), lexicon)
         key = "_".join(re.findall(r"\w+", " ".join(name)))[:150]
+        if moved and (where := wish.one("G") or wish.one("L")) is not None:  # "I moved the box to the desk"
+            be = "are" if name[-1].endswith("s") and not name[-1].endswith("ss") else "is"
+            text = f"{thing.text} {be} {_TO.sub('at', where.text)}"
         if key and text:
             plain = re.search(re.escape(" ".join(name)), message, re.IGNORECASE)
             shown = plain[0] if plain else " ".join(name)
@@ -79,10 +83,11 @@ def _moved(found: list[Told], wish: Wish, reading: Reading) -> list[Told]:
     owner = last.about.removeprefix("Where ").removesuffix(" is")
     gone = _GONE.search(last.text) is not None
     kept = found[:-1] if gone else found
-    where = re.sub(r"^(?:in)?to\b", "at", places[0].text)
+    where = _TO.sub("at", places[0].text)
     return [*kept, Told(last.name, f"{owner} is {where}", last.about)]
 
 
+_TO = re.compile(r"^(?:in|on)?to\b")
 _GONE = re.compile(r"n['’]t\b|\b(?:not|no longer|never|left)\b")
 _END = re.compile(r"[.,;:!?]|\b(?:and|but|so|because|or|then|please)\b|$", re.IGNORECASE)
 _LINKED = re.compile(r"that\s+", re.IGNORECASE)

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from parley.language.builtin.amounts import UNITS, Amount, amount_of, direction_of
 from parley.language.builtin.lexicon import Lexicon, lemmas, stem
-from parley.language.builtin.pairing import best_pairs
 from parley.language.builtin.spans import Filler
 from parley.messages.status import ParameterInfo
+from parley.pairing import best_pairs
 from parley.umrf.kinds import words_of_name
 
 __all__ = ["Fill", "Filling", "Slots", "fill", "filled_by"]

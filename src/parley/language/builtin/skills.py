@@ -17,9 +17,9 @@ import numpy as np
 
 from parley.language.builtin.labels import OTHER
 from parley.language.builtin.lexicon import Lexicon
-from parley.language.builtin.pairing import best_pairs
 from parley.language.builtin.tagger import Tagger
 from parley.messages.status import ActionInfo
+from parley.pairing import best_pairs
 from parley.umrf.kinds import is_word_for, parameters_of, words_of_name
 
 __all__ = ["Skill", "SkillTable", "Skills"]

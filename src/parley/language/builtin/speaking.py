@@ -47,14 +47,8 @@ def spoken(wish: Wish, values: MutableMapping[str, Value], grounder: Grounder) -
     verb = wish.verb.split()[0]
     person = values.get("R")
     whom = f" to {person.said}" if person is not None else ""
-    if person is not None:
-        words = wish.all("R")[0].words
-        if not _is_somebody(wish, "R", person, grounder) or words[0] in _ELSEWHERE:
-            return Ask(f"Is {person.said} somebody I can speak to? Please tell me whom you mean.")
-        if _ELSEWHERE & {*words[1:]}:
-            return Ask(f"I say it where I stand. Where shall I go first, and what shall I say{whom} there?")
-    if verb == "remind" and person is not None and person.argument == "operator":
-        return Ask("I cannot remind you later: I only speak at once. What shall I say now?")
+    if person is not None and (asked := _to_whom(wish, person, grounder)) is not None:
+        return asked
     if verb in _GREETING and not re.search(r"\w", values["X"].argument if "X" in values else ""):
         values["X"] = Value("hello", "hello")
     told = values.get("X")
@@ -75,6 +69,20 @@ def spoken(wish: Wish, values: MutableMapping[str, Value], grounder: Grounder) -
     if not text:
         return Ask(f"What exactly shall I say{whom}? Please tell me word for word: say “…”.")
     values["X"] = replace(told, argument=text, said=text)
+    return None
+
+
+def _to_whom(wish: Wish, person: Value, grounder: Grounder) -> Ask | None:
+    """A question where words cannot be said to somebody just now."""
+    words = wish.all("R")[0].words
+    if not _is_somebody(wish, "R", person, grounder) or words[0] in _ELSEWHERE:
+        return Ask(f"Is {person.said} somebody I can speak to? Please tell me whom you mean.")
+    if _ELSEWHERE & {*words[1:]}:
+        return Ask(
+            f"I say it where I stand. Where shall I go first, and what shall I say to {person.said} there?"
+        )
+    if wish.verb.split()[0] == "remind" and person.argument == "operator":
+        return Ask("I cannot remind you later: I only speak at once. What shall I say now?")
     return None
 
 

@@ -31,7 +31,9 @@ def steadily(
     words, called = _written_out(tokens), named(tokens, known)
     plain = tagger.tag(words, called)
     found, reading = _read(tokens, plain, lexicon)
-    polite = _behind(tagger, "okay" if words[0].lower() == "please" else "please", words, called)
+    told = reading.acts == {"told"}  # "please I left my box here" is no sentence
+    opener = "okay" if words[0].lower() == "please" else "well" if told else "please"
+    polite = _behind(tagger, opener, words, called)
     readings = [reading, _read(tokens, polite, lexicon)[1]]
     said = [_said(one, lexicon) for one in readings]
     if said[0] == said[1]:

@@ -44,7 +44,8 @@ _LEADS: Final = re.compile(
     r"i (?:want|would like) to know|what i want to know is) )+"
 )
 _TAILS: Final = re.compile(
-    r"(?: (?:now|right now|please|then|today|yet|at the moment|exactly|already|so far|by now|again|just now|"
+    r"(?: (?:now|right now|please|for (?:today|now)|"
+    r"then|today|yet|at the moment|exactly|already|so far|by now|again|just now|"
     r"still|actually|this time|for me|me|sir|buddy|robot|thanks|thank you|anyway|currently|by the way))+$"
 )
 _ASKING: Final = re.compile(
@@ -58,6 +59,7 @@ def plain(tokens: Sequence[Token], names: Sequence[str] = ()) -> str:
     called = {part.casefold() for name in names for part in name.split()}
     text = " ".join(token.low for token in tokens if token.is_word and token.low not in called)
     text = re.sub(r" (?='[a-z])", "", text)
+    text = re.sub(r"\b(what|where|who|how|when)s\b", r"\1's", text)
     while (shorter := _TAILS.sub("", _LEADS.sub("", text))) != text and shorter:
         text = shorter
     return text

@@ -44,6 +44,8 @@ _DONE: Final = re.compile(
     r"(?:you (?:can|may) )?(?:go on|carry on|continue|go ahead|drive on|move on|go|drive|leave|take it)"
     r"(?: now)?"
 )  # fmt: skip
+_ORDERED: Final = re.compile(r"(?:put|set|shut)\b(?!.*\b(?:it|them|you|your)\b)")
+"""What begins so is an order: "put the radio on"; "put it on you" may be told."""
 _RUN_TOGETHER: Final = re.compile(
     r"\b(?:(that|it|there|here|he|she)(s)|(i|you|we|they)(ve)|(you|they)(re))\b"
 )
@@ -98,6 +100,8 @@ def is_done(bare: str) -> bool:
     """Whether somebody says that what was asked of them is done."""
     bare = _RUN_TOGETHER.sub(lambda found: "'".join(filter(None, found.groups())), bare)
     done = _DONE.fullmatch(bare) or _ONTO.search(bare)
+    if _ORDERED.match(bare) is not None:
+        return False
     return not (_NOT | _TO_COME) & set(bare.split()) and done is not None
 
 

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import linear_sum_assignment
 
-from parley.language.builtin.pairing import best_pairs
+from parley.pairing import best_pairs
 
 
 @settings(max_examples=200, deadline=None)
