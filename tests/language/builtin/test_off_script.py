@@ -126,6 +126,27 @@ def test_where_another_robot_is_that_robot_tells() -> None:
     assert isinstance(asked, Answer) and "where are you?" in asked.text
 
 
+@pytest.mark.parametrize(
+    ("said", "where"),
+    [
+        ("Mr Bauer is asleep. Go to his room", ["room 5"]),
+        ("drive to Mr Bauer's room", ["room 5"]),
+        ("I have the family of Mr Bauer here. Can you drive to his room?", "Whose room"),
+    ],
+)
+def test_somebodys_room_is_where_it_was_told_that_they_live(said: str, where: list[str] | str) -> None:
+    rooms = tuple(
+        MapObject(name.replace(" ", "_"), name, float(at), 1.0)
+        for at, name in enumerate(("room 1", "room 5", "dining room"))
+    )
+    memory = (MemoryEntry(name="bauer_room", data="Mr Bauer lives in room 5"),)
+    made = ENGINE.decide(situation(said, objects=rooms, memory=memory))
+    if isinstance(where, str):
+        assert isinstance(made, Ask) and where in made.question
+    else:
+        assert isinstance(made, Do) and [*made.deeds[0].arguments.values()] == where
+
+
 def test_who_leaves_is_not_greeted() -> None:
     made = decided("that's all, goodnight")
     assert isinstance(made, Answer) and made.text == "Goodbye."

@@ -255,7 +255,7 @@ def _alone(
         return dropped
     while deeds and deeds[-1].open_ended:
         deeds.pop()
-    if not deeds and builder.doubts is not None:
+    if not deeds and builder.doubts is not None and any(w.negated and w.witness == "unknown" for w in orders):
         return builder.doubts[0]
     if not deeds:
         left = " ".join(note.text for note in builder.notes)

@@ -141,6 +141,7 @@ class Grounder:
     def _thing(self, frame: str, filler: Filler, mention: Mention, *, placed: bool = False) -> Value | Ask:
         """A thing or a place; `placed`: where it is, is said."""
         before = self._spoken_of(filler, mention) or _at_point(filler)
+        before = before or self._room_of_somebody(filler)
         before = before or self._room(frame, filler) or self._home(frame, filler, mention)
         if before is not None:
             return before
@@ -257,6 +258,21 @@ class Grounder:
         if len(found) != 1 or " ".join(name) in things:
             return None
         return Value(found[0].description, with_article(found[0].description), (found[0],))
+
+    def _room_of_somebody(self, filler: Filler) -> Value | Ask | None:
+        """Where somebody lives, as it was told: "his room", "Kim's room"; never another room of the map."""
+        leads = self.lexicon.classes["prepositions"] - {"'s"}
+        *whose, room = [word for word in filler.words if word not in leads] or [""]
+        if room != "room" or (whose[-1:] != ["'s"] and whose not in (["his"], ["her"], ["their"])):
+            return None
+        named = whose[-1:] == ["'s"]
+        place = known_place(whose[:-1], self.known) if named else None
+        if not named:
+            place = self.last_person.place if self.last_person is not None else None
+            if place is None:
+                return Ask("Whose room do you mean?")
+        called = as_said(place.thing, place.memory.data) if place is not None else ""
+        return Value(called, with_article(called), (), place) if place is not None else None
 
     def _home(self, frame: str, filler: Filler, mention: Mention) -> Value | Ask | None:
         """Where it charges as its home, if nothing else is called so."""
