@@ -220,6 +220,12 @@ def test_a_room_is_what_the_map_shows_as_that_room() -> None:
     assert (draft.rule.name, draft.rule.polygon, draft.rule.rectangle) == ("Ward", corners, None)
 
 
+@pytest.mark.parametrize("behind", ["again", "any more", "again until 6:00"])
+def test_again_and_any_more_are_no_part_of_a_place(behind: str) -> None:
+    made = told(f"never go into the hall {behind}")
+    assert isinstance(made, DraftRule) and made.rule.name == "hall"
+
+
 def test_a_rule_for_a_case_that_nobody_can_measure_is_not_taken_for_a_place() -> None:
     made = told("never enter the hall when I sleep")
     assert isinstance(made, NotUnderstood) and "not “when i sleep”" in made.sentence

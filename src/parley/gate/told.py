@@ -284,13 +284,14 @@ def _forbidden(said: str, world: _World) -> dict[str, Any] | NotUnderstood | Non
         who = _named(subject, world)
         if who is None:
             return None  # "Kim must not lift boxes" is about a person
-    place = found["rest"] if found["keep"] else _goes_into(found["rest"])
+    rest = _NO_LONGER.sub("", found["rest"])
+    place = rest if found["keep"] else _goes_into(rest)
     if place is not None:
         area = _area(place, world, _BEFORE_M if _TO.match(found["rest"]) else _MARGIN_M)
         if isinstance(area, NotUnderstood):
             return area
         return {"kind": "keep_out", "robots": who} | area
-    verb, _, where = _NO_LONGER.sub("", found["rest"]).partition(" ")
+    verb, _, where = rest.partition(" ")
     if verb in _DRIVE and where and where != "anywhere":  # not to go there is not to go nowhere
         return _unknown(where)
     deed = _deed(found["rest"], world)
@@ -403,7 +404,9 @@ def _unknown(words: str) -> NotUnderstood:
     )
 
 
-_NO_LONGER: Final = re.compile(r" (?:any ?more|any longer|again|ever)$")
+_NO_LONGER: Final = re.compile(
+    r" (?:any ?more|any longer|again|ever)(?= (?:tonight|today|tomorrow|until|till)\b|$)"
+)
 
 
 def _names(item: MapObject) -> set[str]:

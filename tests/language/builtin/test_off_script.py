@@ -5,8 +5,12 @@ from __future__ import annotations
 import pytest
 
 from parley.cli.actions import catalogue_with
-from parley.language.builtin.decision import Answer, Ask, Decision, Do, Remember
+from parley.language.base import Turn
+from parley.language.builtin.decision import Answer, Ask, Decision, Do, Edit, Remember
 from parley.language.builtin.engine import BuiltinLanguage
+from parley.language.builtin.lexicon import lexicon
+from parley.language.builtin.reply import to_chat
+from parley.language.dialogue.state import Dialogue, Order
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
 from tests.language.builtin.worlds import situation
@@ -150,3 +154,26 @@ def test_somebodys_room_is_where_it_was_told_that_they_live(said: str, where: li
 def test_who_leaves_is_not_greeted() -> None:
     made = decided("that's all, goodnight")
     assert isinstance(made, Answer) and made.text == "Goodbye."
+
+
+def test_it_is_the_thing_that_was_told_of_and_not_what_it_lies_on() -> None:
+    fact = "my book is on the turning circle"
+    memory = (MemoryEntry(name="book_location", data=fact),)
+    history = (Turn("operator", fact), Turn("assistant", f"I will remember that {fact}."))
+    made = ENGINE.decide(situation("bring it to bay A", objects=PLACES, memory=memory, history=history))
+    assert isinstance(made, Do)
+    assert "book" in [deed.arguments.get("item") for deed in made.deeds]
+
+
+def test_the_same_of_another_thing_is_asked_of_that_thing() -> None:
+    first = decided_shipped("check whether bay A is free")
+    assert isinstance(first, Do)
+    order = Order("check whether bay A is free", calls=to_chat(first, lexicon()).queue)
+    made = decided_shipped("and bay C", dialogue=Dialogue(orders=(order,)))
+    assert isinstance(made, Edit)
+    said = [str(p.value) for call in made.change.add for p in call.input_parameters.values() if p.has_data]
+    assert said == ["bay C", "whether bay C is free"]
+
+
+def decided_shipped(said: str, **more: object) -> Decision:
+    return ENGINE.decide(situation(said, objects=PLACES, catalogue=SHIPPED, **more))

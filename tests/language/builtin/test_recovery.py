@@ -9,6 +9,7 @@ import pytest
 from parley.errors import FailureCode
 from parley.language.base import ErrorSituation, ReplyReading, Turn
 from parley.language.builtin.engine import BuiltinLanguage
+from parley.language.dialogue.settling import settled
 from parley.messages.chat import ActionCall
 from parley.messages.memory import MemoryEntry
 from parley.messages.status import ActionInfo
@@ -246,3 +247,8 @@ async def test_what_somebody_has_done_is_remembered_and_the_robot_looks_again() 
     assert [command.arguments["data"] for command in answer.system_cmd] == ["The front gate has been cleared"]
     denied = await ENGINE.resolve(replace(alarm, reply="The front gate has not been cleared."))
     assert not denied.success
+
+
+@pytest.mark.parametrize("reply", ["go and charge", "drive and look at the ramp", "put the lamp on"])
+def test_an_order_is_no_word_that_it_is_done(reply: str) -> None:
+    assert settled(reply, ()) is None

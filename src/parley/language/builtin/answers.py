@@ -106,7 +106,11 @@ def _is_about_failure(situation: Situation, lexicon: Lexicon) -> bool:
 def _kept(situation: Situation, lexicon: Lexicon) -> Answer | None:
     """What is remembered in the words of a question, all but those that only ask; the newest."""
     asking = lexicon.classes["small"] | lexicon.classes["logic"] | lexicon.classes["prepositions"]
-    asking = asking | lexicon.classes["being"] | {"do", "does", "did", "whose", "when", "much", "many"}
+    asking = (
+        asking
+        | lexicon.classes["being"]
+        | {"do", "does", "did", "whose", "when", "much", "many", "one", "ones"}
+    )
     words = {
         stem(token.low) for token in tokenize(situation.message) if token.is_word and token.low not in asking
     }

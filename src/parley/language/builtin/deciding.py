@@ -32,6 +32,7 @@ from parley.language.dialogue.indirect import meant
 from parley.language.dialogue.mentions import named
 from parley.language.dialogue.speaker import Again, name_of
 from parley.messages.memory import MemoryEntry
+from parley.world.object_map import MapObject
 
 __all__ = ["decide"]
 
@@ -354,7 +355,7 @@ def _without_order(
         return Remember(facts)
     if "question" in reading.acts:
         before, _ = policy.spoken_of(situation, (), lexicon)
-        before = None if before in situation.rooms else before  # a room is no "it"
+        before = before if isinstance(before, MapObject) and before not in situation.rooms else None
         return answer(situation, reading, lexicon, reader, before)
     if not situation.question and situation.dialogue.asked is None and gives_up(situation.message):
         return Answer("All right.")

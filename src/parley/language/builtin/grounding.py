@@ -432,9 +432,12 @@ class Grounder:
         others = [link(f.words, f.head, self.situation.objects, self.lexicon).things for f in fillers]
         return any(thing in things for thing in named for things in others)
 
-    def recall(self, thing: MapObject | None, person: Place | None) -> None:
+    def recall(self, thing: MapObject | Place | None, person: Place | None) -> None:
         """What was spoken of before this message."""
-        if thing is not None:
+        if isinstance(thing, Place):
+            name = as_said(thing.thing, thing.memory.data)
+            self.last_thing = Value(name, with_article(name), (), thing)
+        elif thing is not None:
             self.before = thing
             self.last_thing = Value(thing.description, with_article(thing.description), (thing,))
         if person is not None:

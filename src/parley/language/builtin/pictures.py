@@ -26,6 +26,7 @@ _SURE: Final = 0.8
 """What is less certain is said to be."""
 _SOMEBODY: Final = frozenset({"somebody", "someone", "anybody", "anyone", "nobody", "person", "people"})
 _PERSONS: Final = frozenset({"person", "human", "man", "woman", "child", "people"})
+_ANY: Final = frozenset({"anybody", "anyone", "anything", "nobody", "nothing"})
 _ANYTHING: Final = frozenset({"anything", "something", "nothing"})
 
 Place = MapObject | MapArea
@@ -156,6 +157,9 @@ def _thing(scene: _Scene, wish: Asked, name: str) -> InspectionReport:
             things=tuple(found),
         )  # fmt: skip
     more = f" I can see {' and '.join(scene.told(one) for one in found)}." if found else ""
+    if {*wish.thing} & _ANY:  # whether anybody is there is only asked: no is an answer, too
+        none = "nobody" if {*wish.thing} & _SOMEBODY else "nothing else"
+        return InspectionReport(f"I see {none}{scene.there}.{more or scene.also}", False, name, unwanted=True)
     return InspectionReport(
         f"I looked, but I cannot see {with_article(name) or 'it'}{scene.there}.{more or scene.also}",
         False, name, things=tuple(found),

@@ -31,11 +31,12 @@ def steadily(
     words, called = _written_out(tokens), named(tokens, known)
     plain = tagger.tag(words, called)
     found, reading = _read(tokens, plain, lexicon)
-    told = reading.acts == {"told"}  # "please I left my box here" is no sentence
-    opener = "okay" if words[0].lower() == "please" else "well" if told else "please"
-    polite = _behind(tagger, opener, words, called)
+    polite = _behind(tagger, "okay" if words[0].lower() == "please" else "please", words, called)
     readings = [reading, _read(tokens, polite, lexicon)[1]]
     said = [_said(one, lexicon) for one in readings]
+    if said[0] != said[1] and reading.acts == {"told"}:  # "please I left my box here" is no sentence
+        readings[1] = _read(tokens, _behind(tagger, "well", words, called), lexicon)[1]
+        said[1] = _said(readings[1], lexicon)
     if said[0] == said[1]:
         return found, replace(reading, unsteady=())
     more = [_behind(tagger, opener, words, called) for opener in ("now", "so", "robot")]

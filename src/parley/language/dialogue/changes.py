@@ -383,15 +383,15 @@ def _replaced(plan: Sequence[Visit], against: Sequence[Named], wanted: Named, te
     calls = tuple(call for visit in deed for call in moved(visit, target) or ())
     if moved(old[0], target) is None or target in old[0].things:
         return None
-    other = _reason(old[0].said, _names_of(old[0]), target)
+    other = _reason(old[0].said, _names_of(old[0].things), target)
     other = other if other != old[0].said else f"take {called(target.description)}"
     said = f"I do not {old[0].said}. Instead I {other}."
     return reordered(plan, deed, _behind(plan, deed), "instead", calls, said)
 
 
-def moved(old: Visit, target: MapObject) -> tuple[ActionCall, ...] | None:
-    """The same deed about another thing; None if it is not about one thing."""
-    names = _names_of(old)
+def moved(old: Visit, target: MapObject, before: MapObject | None = None) -> tuple[ActionCall, ...] | None:
+    """The same deed about another thing than `before`, or its own; None if it is not about one thing."""
+    names = _names_of(old.things if before is None else (*old.things, before))
     calls, changed = [], False
     for call in old.calls:
         inputs = {}
@@ -401,23 +401,32 @@ def moved(old: Visit, target: MapObject) -> tuple[ActionCall, ...] | None:
             value = str(parameter.value).lower() if parameter.has_data else ""
             if parameter.type == "string" and value in names:
                 parameter, changed = replace(parameter, value=target.description), True
+            elif parameter.type == "string" and value:  # "whether the blue cup is full" of the red one
+                text = _renamed(str(parameter.value), names, target)
+                changed = changed or (before is not None and text != parameter.value)
+                parameter = replace(parameter, value=text)
             inputs[name] = parameter
         reason = _reason(call.reason, names, target)
         calls.append(call.model_copy(update={"input_parameters": inputs, "reason": reason, "flow": None}))
     return tuple(calls) if changed else None
 
 
-def _names_of(visit: Visit) -> set[str]:
-    return {n.lower() for item in visit.things for n in (item.description, item.id, *item.aliases)}
+def _names_of(things: Sequence[MapObject]) -> set[str]:
+    return {n.lower() for item in things for n in (item.description, item.id, *item.aliases)}
 
 
 def _reason(reason: str, names: set[str], target: MapObject) -> str:
-    low = reason.lower()
-    hit = next((known for known in sorted(names, key=len, reverse=True) if known in low), None)
-    if hit is None:
-        return f"go to {called(target.description)}" if reason.startswith("go to") else reason
-    at = low.index(hit)
-    return reason[:at] + target.description + reason[at + len(hit) :]
+    renamed = _renamed(reason, names, target)
+    return (
+        f"go to {called(target.description)}" if renamed == reason and reason.startswith("go to") else renamed
+    )
+
+
+def _renamed(text: str, names: set[str], target: MapObject) -> str:
+    """A text about one thing, about another one."""
+    hit = next((known for known in sorted(names, key=len, reverse=True) if known in text.lower()), "")
+    at = text.lower().index(hit)
+    return text[:at] + target.description + text[at + len(hit) :] if hit else text
 
 
 def _put_in(plan: Sequence[Visit], wanted: Sequence[Named], text: str) -> Change | None:

@@ -94,7 +94,9 @@ def followed(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, la
         )
     if not things or before in things:
         return None
-    calls = tuple(call for thing in things for visit in done for call in moved(visit, thing) or visit.calls)
+    calls = tuple(
+        call for thing in things for visit in done for call in moved(visit, thing, before) or visit.calls
+    )
     finding = {info.name for info in situation.catalogue if info.only_finds}
     reasons = dict.fromkeys(call.reason for call in calls if call.reason and call.name not in finding)
     what = " and then ".join(reasons) or f"do the same with the {things[0].description}"

@@ -49,7 +49,8 @@ def put_off(message: str) -> tuple[str, str] | None:
 
 
 def _sees(condition: str) -> bool:
-    return re.match(r"(?:there|you|it|the|a|any|no)\b", condition, re.IGNORECASE) is not None
+    said = r"(?:there|you|it|the|a|any|no|(?:any|some|no)(?:one|body))\b"
+    return re.match(said, condition, re.IGNORECASE) is not None
 
 
 def due(message: str, waiting: Sequence[str]) -> str:

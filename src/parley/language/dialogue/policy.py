@@ -165,9 +165,12 @@ def _about_what_was_said(
     if instead is None and not visits(situation):
         instead = _INSTEAD.match(situation.message)
     if instead is not None:
-        made = _ordered(again(instead["rest"]))
+        asked = again(instead["rest"])
+        made = _ordered(asked)
         if made is not None:
             return afterwards(made, situation, reading, tokens, lexicon)
+        if isinstance(asked, Ask) and asked.choices:
+            return asked
     change = rearranged(situation, tokens, lexicon) or change_of(situation, tokens, lexicon, orders=False)
     if change is None and situation.dialogue.orders:
         change = followed(situation, tokens, lexicon, situation.dialogue.orders[-1])
@@ -296,10 +299,10 @@ def afterwards(
         return Answer(f"Hello, {met['name']}. What can I do for you?")
     ordered = any(wish.act == "order" for wish in reading.wishes)  # "thank you, go back"
     if isinstance(made, Ask | Answer) and not (offers or ordered) and _SOCIAL.fullmatch(bare):
-        if bare.startswith(("thank", "cheers", "that")):
-            return Answer("You are welcome.")
-        leaves = bare.startswith(("bye", "goodbye", "good night", "see you"))
-        return Answer("Goodbye." if leaves else "Hello. What can I do for you?")
+        if bare.startswith(("bye", "goodbye", "good night", "see you")):
+            return Answer("Goodbye.")
+        greets = bare.startswith(("hello", "hi", "hey", "good ", "you", "sorry"))
+        return Answer("Hello. What can I do for you?" if greets else "You are welcome.")
     if offers or not isinstance(made, Ask | Answer | Remember):
         return made
     return _of_what_is_told(made, situation, reading, tokens, lexicon)
@@ -474,10 +477,11 @@ _LEADING_ON: Final = frozenset(
 
 def spoken_of(
     situation: Situation, known: Sequence[Place], lexicon: Lexicon
-) -> tuple[MapObject | None, Place | None]:
+) -> tuple[MapObject | Place | None, Place | None]:
     """What "it", "there" and "her" mean when a message begins: what was named last, who was told of last."""
     orders = {order.words: order for order in situation.dialogue.orders}
-    thing, person = _found(situation), None
+    thing: MapObject | Place | None = _found(situation)
+    person: Place | None = None
     for turn in reversed(situation.history[-_TURNS:]):
         if turn.role != "operator":
             continue
@@ -486,9 +490,19 @@ def spoken_of(
         low = {token.low for token in tokenize(turn.content)}
         if person is None:
             person = next((p for p in known if _is_called(p) and {*p.thing.lower().split()} <= low), None)
+        if thing is None:  # "my book is on the desk" speaks of the book
+            bare = not named(tokenize(turn.content), situation.objects, lexicon)
+            thing = next(
+                (p for p in known if not _is_called(p) and _tells_of(p, turn.content, low, bare)), None
+            )
         if thing is None:
             thing = _thing_in([*reversed(texts), turn.content], low, situation, lexicon)
     return thing, person
+
+
+def _tells_of(place: Place, text: str, low: set[str], bare: bool) -> bool:
+    """Whether words told where a thing is, or `bare` of things of the map name it."""
+    return place.memory.data.lower() in text.lower() or (bare and {*place.thing.lower().split()} <= low)
 
 
 def _found(situation: Situation) -> MapObject | None:

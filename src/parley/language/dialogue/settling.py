@@ -82,6 +82,8 @@ def settled(reply: str, things: Collection[str], *, in_the_way: bool = False) ->
         in_the_way: Whether something was in the way, or where nothing should be.
     """
     wait_s = 0.0
+    if re.match(r"\W*(?:go|come|drive) and \w", reply, re.IGNORECASE):
+        return None  # "go and charge" is an order
     for piece, rest in parts_of(reply):
         way, seconds = _way(piece, things), _seconds(piece)
         if in_the_way and _is_clear(piece, things):
