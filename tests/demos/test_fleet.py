@@ -89,7 +89,10 @@ async def test_what_is_not_certain_is_asked_and_nothing_begins() -> None:
             "each of you: go to the pump and the gate",
         )
         told_off = await told(home, "everybody but Spot go to the pump and the gate", *ROBOTS)
-        assert told_off.choices == ("each of you but Spot: go to the pump and the gate",)
+        assert told_off.choices == (
+            "TIAGo and Leo go to the pump and the gate, between them",
+            "each of you but Spot: go to the pump and the gate",
+        )
         which = await home.say("both of you go to the pump", "Leo")
         assert "Which of us do you mean?" in which.message
         for text in ("split the areas between you", "let Leo do that", "one of you go to the moon"):
@@ -226,7 +229,7 @@ async def test_what_another_robot_does_already_is_asked_about_and_nothing_older_
         assert asked.choices == ("Let Leo take over from TIAGo",)
         assert goals(home) == {"Spot": ["pump"], "TIAGo": ["Area A"], "Leo": []}
         told = await home.say("one of you go to the pump, the others go to Area B instead", "Spot")
-        assert "TIAGo gets no part: it would change what it is at." in told.message
+        assert "What TIAGo had to do before is left out." in told.message
         home.observer.say("Leo should go to the pump instead", "Spot")  # Leo does it, and says so
         await home.observer.until(lambda: goals(home)["Leo"][-1:] == ["pump"], timeout_s=PATIENCE_S)
         await home.say("cancel everything", "Leo")
@@ -235,6 +238,66 @@ async def test_what_another_robot_does_already_is_asked_about_and_nothing_older_
         await home.say("cancel everything", "TIAGo")
         await home.say("let Leo do that", "Spot")
         assert goals(home)["Leo"] == ["Area C"]
+
+
+@pytest.mark.parametrize(
+    ("first", "then", "ends"),
+    [
+        ("Everybody go to the pump", "Forget it, all of you wait at the dock", ["charging dock"] * 3),
+        ("Everybody go to the pump", "Everybody go to the dock instead", ["charging dock"] * 3),
+        ("Spot goes to Area A and Leo goes to the pump", "actually, swap them", ["pump", "", "Area A"]),
+        ("One of you go to the pump", "Leo, not you", ["", "", "pump"]),
+        ("Everybody go to the pump", "Forget it, one of you goes to the gate", ["loading gate", "", ""]),
+    ],
+)
+@pytest.mark.parametrize("approval", ["run_at_once", "ask_first"])
+async def test_another_order_to_a_team_comes_in_place_of_the_one_before(
+    first: str, then: str, ends: list[str], approval: str
+) -> None:
+    async with hall(speed=4.0, approval=approval) as home:
+        for words in (first, then):
+            reply = await home.say(words, "Spot")
+            if approval == "ask_first":
+                assert reply.message.endswith("Shall I?")
+                home.observer.say("yes", reply.targets[-1])
+
+            def begun() -> bool:
+                plans = home.observer.plans
+                at = [name for name in ROBOTS if name in plans and plans[name].state == "running"]
+                return bool(at) and "awaiting_approval" not in [plan.state for plan in plans.values()]
+
+            await home.observer.until(begun, timeout_s=PATIENCE_S)
+
+        def last() -> list[str]:
+            over = ("finished", "skipped", "stopped")
+            plans = [home.observer.plans.get(name) for name in ROBOTS]
+            left = [[step for step in plan.steps if step.state not in over] if plan else [] for plan in plans]
+            return [str(steps[-1].label).split("“")[-1].strip("”") if steps else "" for steps in left]
+
+        await home.observer.until(lambda: last() == ends, timeout_s=PATIENCE_S)
+
+
+async def test_words_to_a_team_that_are_not_read_are_no_order_to_whoever_hears_them() -> None:
+    async with hall() as home:
+        for text in ("Half of you go to the pump.", "Make sure there's always one of you at the dock."):
+            assert (await home.say(text, "Spot")).message.startswith("I cannot tell which of us")
+        unknown = await home.say("Listen here: everybody go to the pump", "Spot")
+        assert unknown.choices in (("everybody go to the pump",), ())
+        bare = await home.say("Spot area A, TIAGo area B", "Leo")
+        assert bare.choices[0] == "Spot checks area A, TIAGo checks area B"
+        assert not any(goals(home).values())
+
+
+async def test_what_comes_after_the_work_of_another_one_waits_for_it() -> None:
+    async with hall() as home:
+        home.observer.say("go to Area B", "Leo")
+        await home.observer.until(lambda: goals(home).get("Leo") == ["Area B"], timeout_s=PATIENCE_S)
+        told = await home.say("When Leo is there, TIAGo goes to the pump and you stay here", "Spot")
+        assert "TIAGo, as soon as Leo has done its part" in told.message
+        assert "Spot stays where it is." in told.message
+        await home.done("TIAGo")
+        names = [step.action.name for step in home.observer.plans["TIAGo"].steps]
+        assert names[0] == WAITS_FOR
 
 
 async def test_who_was_stopped_goes_with_the_yes_to_something_else_and_not_by_a_step_left_out() -> None:

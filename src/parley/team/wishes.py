@@ -20,7 +20,7 @@ from parley.language.builtin.lexicon import lemmas, lexicon
 from parley.language.builtin.tokens import tokenize
 from parley.language.dialogue.questions import asks, plain, question_of
 
-__all__ = ["Part", "TeamWish", "asked_by_name", "is_in_turn", "is_of_several", "team_wish"]
+__all__ = ["Part", "TeamWish", "asked_by_name", "is_in_turn", "is_of_several", "is_unread", "team_wish"]
 
 
 Who = Literal["one", "some", "rest", "all", "each", "named"]
@@ -48,15 +48,25 @@ class Part:
     """Robots that are left out of it by name."""
     home: bool = False
     """Whether it is to go back, and it is not said where to."""
+    fullest: bool = False
+    """For `one`: whoever has most left in its battery."""
+    stays: bool = False
+    """Whether it is to do nothing."""
+    awaits: str = ""
+    """The robot that has to be done with what it is at before."""
+    instead: bool = False
+    """Whether it does what the hearer, or `of`, has to do."""
+    alike: str = ""
+    """What the words may mean if nobody understands them: the same as others do."""
 
 
 @dataclass(frozen=True, slots=True)
 class TeamWish:
     """How a message spreads work over robots, or what it asks about them."""
 
-    kind: Literal["share", "parts", "nearest", "about", "why"]
+    kind: Literal["share", "parts", "nearest", "about", "why", "swap"]
     parts: tuple[Part, ...] = ()
-    """For `share` one, of all."""
+    """For `share` one, of all; for `swap` those that are named."""
     about: str = ""
     """For `nearest` the place, for `about` the question as that robot would be asked."""
     robot: str = ""
@@ -66,7 +76,9 @@ class TeamWish:
     count: int = 0
     """How many robots are spoken of ("you two"); 0: that is not said."""
     bare: bool = False
-    """For `share`: only things are named, not what is to be done there."""
+    """Only things are named, not what is to be done there."""
+    anew: bool = False
+    """Whether what was wanted before is wanted no more."""
 
 
 _SEVERAL: Final = re.compile(r"\b(?:all|every|each|both|any|two|three|four|five|six|[2-9])\b", re.IGNORECASE)
@@ -85,29 +97,41 @@ def is_in_turn(order: str) -> bool:
     return _IN_TURN.search(order) is not None
 
 
-def team_wish(message: str, robots: Sequence[str]) -> TeamWish | None:
+def team_wish(message: str, robots: Sequence[str], hearer: str = "") -> TeamWish | None:
     """How a message is meant for a team; None if it says nothing of one.
 
     Args:
         message: What was said.
         robots: Who is there; a team has at least two.
+        hearer: Whom "you" means, where one robot hears it.
     """
     if len(robots) < 2:
         return None
-    words = _Words(tuple(robots))
-    asks = message.rstrip().endswith("?")
-    text = re.sub(r"\s+", " ", message.replace("’", "'")).strip(" .!?")
-    bare = words.begun(text)
-    wish = words.about(text) or words.share(bare) or words.parts(bare, asks=asks)
+    words = _Words(tuple(robots), hearer)
+    wish = words.wish(message)
     if wish is None or any(calls_to_stop(part.order) or control_of(part.order) for part in wish.parts):
         return None  # stopping has its own way
-    return replace(wish, count=words.count(text))
+    if not any(part.stays for part in wish.parts) and calls_to_stop(message):
+        return None
+    return words.counted(wish, message)
+
+
+def is_unread(message: str, robots: Sequence[str]) -> str | None:
+    """What of words to a team that `team_wish` does not read it reads; None: they are not to a team."""
+    if len(robots) < 2:
+        return None
+    words = _Words(tuple(robots))
+    tails = (message[cut.end() :] for cut in re.finditer(r"[,;:.!–—-]\s+", message))
+    read = next(
+        (tail for tail in tails if (wish := words.wish(tail)) and wish.kind in ("share", "parts")), ""
+    )
+    return read if read or re.search(rf"\b{words.of('group')}\b", message, re.IGNORECASE) else None
 
 
 def asked_by_name(message: str, robots: Sequence[str], hearer: str) -> TeamWish | None:
     """A question that calls one robot, heard by another one: that cannot answer for it."""
     words = _Words(tuple(robots))
-    text = words.begun(re.sub(r"\s+", " ", message.replace("’", "'")).strip(" .!?"))
+    text = words.begun(_plain(message))
     found = words.calling(text)
     if found is None or found[0] == hearer:
         return None
@@ -129,8 +153,65 @@ def _data() -> dict[str, list[str]]:
 class _Words:
     """The patterns, for robots of these names."""
 
-    def __init__(self, robots: tuple[str, ...]) -> None:
+    def __init__(self, robots: tuple[str, ...], hearer: str = "") -> None:
         self._robots = {name.lower(): name for name in robots}
+        self._hearer = hearer
+
+    def wish(self, message: str, *, alone: bool = False) -> TeamWish | None:
+        """How a message is meant for a team; `alone`: or for one that is named."""
+        asks = message.rstrip().endswith("?")
+        text = _plain(message)
+        bare = self._called_as_team(self.begun(text))
+        opened = self._match(
+            rf"(?:{self.of('lead')} )?{self.of('afresh')}(?:[,;:.!]+(?: and| but)?| and) (?P<rest>.+)", bare
+        )
+        wish = self.about(text) or self._read(bare, asks=asks, alone=alone)
+        after = self.wish(opened["rest"], alone=True) if opened else None
+        if after is not None and after.kind not in ("about", "nearest", "why"):
+            return replace(after, anew=after.kind != "swap" and not any(part.instead for part in after.parts))
+        return wish
+
+    def _read(self, text: str, *, asks: bool, alone: bool) -> TeamWish | None:
+        """How work is spread, or spread otherwise than before."""
+        if self._match(self.of("swapping"), text):
+            named = self._called(text)
+            two = len(named) in (0, 2)
+            return TeamWish("swap", tuple(Part("named", "", name) for name in named)) if two else None
+        return (
+            self._other(text)
+            or self.share(text)
+            or self._bare(text, asks=asks)
+            or self.parts(text, asks=asks, alone=alone)
+        )
+
+    def _other(self, text: str) -> TeamWish | None:
+        """Another robot than the one that has it now."""
+        found = self._match(self.of("instead"), text)
+        if found is None:
+            return None
+        robot, of = (
+            next((self._robots[value.lower()] for name, value in found.groupdict().items()
+                  if value and re.fullmatch(rf"{key}\d*", name)), "")
+            for key in ("robot", "of")
+        )  # fmt: skip
+        return TeamWish("parts", (Part("named", "", robot, of=of, instead=True),)) if robot != of else None
+
+    def _called_as_team(self, text: str) -> str:
+        """Without what only calls: "Ada and Kim, you two go", "Ada, tell Kim to go"."""
+        some = rf"{self._names}(?:(?:,? and|,) {self._names})+"
+        text = re.sub(
+            rf"^({some}),? you(?: two| three| both| all)?,? (?=\w)", r"\1 ", text, flags=re.IGNORECASE
+        )
+        told = rf"^{self._names},? (?:please )?(?=(?:tell|ask|let|have|get) {self._names}\b)"
+        return re.sub(told, "", text, flags=re.IGNORECASE)
+
+    def counted(self, wish: TeamWish, message: str) -> TeamWish:
+        """With how many robots are spoken of: "you two" are those that have no part of their own."""
+        count, named = self.count(_plain(message)), {part.robot for part in wish.parts if part.robot}
+        if not named or count != len(self._robots) - len(named):
+            return replace(wish, count=0 if named == {*self._robots.values()} else count)
+        parts = (replace(part, without=(*named,)) if part.who == "all" else part for part in wish.parts)
+        return replace(wish, parts=tuple(parts))
 
     def of(self, name: str) -> str:
         """A list as one pattern."""
@@ -214,17 +295,31 @@ class _Words:
             return _shared(found["order"])
         if found := self._match(rf"{split} (?P<what>(?:the|these|those|all) \w+(?: \w+)?)", text):
             return TeamWish("share", (Part("all", found["what"]),), bare=True)
-        if found := self._match(r"(?P<order>.+?),? (?:one each|one apiece|one for each of you)", text):
-            return TeamWish("share", (Part("all", found["order"]),), one_each=True)
+        if found := self._match(rf"(?P<order>.+?),? {self.of('anybody')}", text):
+            return _shared(found["order"])
         some = rf"(?P<some>{self._names}(?:(?:,? and|,) {self._names})+),?(?: {self.of('modal')})?"
         if found := self._match(rf"{some} (?P<order>.+?),? (?:between|among) (?:them|themselves)", text):
             return _shared(found["order"], tuple({*self._robots.values()} - {*self._called(found["some"])}))
+        some = some.removesuffix(f"(?: {self.of('modal')})?")
+        if found := self._match(rf"{some} {split} (?P<what>(?!the work)\w+ .+|\w+)", text):
+            out = tuple({*self._robots.values()} - {*self._called(found["some"])})
+            return TeamWish("share", (Part("all", found["what"], without=out),), bare=True)
         if found := self._match(r"(?:all )?work together,?(?: and| to|:)? (?P<order>.+)", text):
             return _shared(found["order"])
-        takes = r"takes? (?:one|an?|a different) (?P<what>\w+)(?: each)?,? and (?P<verb>\w+) it"
-        takes = rf"{self.of('each')},? {takes}"
+        return self._one_each(text)
+
+    def _one_each(self, text: str) -> TeamWish | None:
+        """Work of which nobody takes more than one."""
+        takes = rf"{self.of('each')},? (?:takes?|gets?|does|do) one(?: of them)?"
+        each = rf"(?:one each|one apiece|one for each of you|{takes})"
+        if found := self._match(rf"(?P<order>.+?),?(?: and)? {each}", text):
+            return TeamWish("share", (Part("all", found["order"]),), one_each=True)
+        takes = r"(?:takes?|picks?|chooses?|gets?) (?:one|an?|a different) (?P<what>\w+)(?: each)?"
+        tells = r"(?:tells?|shows?) (?:me|us) what(?:'s| is| you| it| they| there).*"
+        then = rf"(?:(?P<verb>\w+) it|{tells}|(?:has|have) a look)"
+        takes = rf"{self.of('each')},? {takes},? and {then}"
         if found := self._match(takes, text):
-            order = f"{_in_base_form(found['verb'])} every {found['what']}"
+            order = f"{_in_base_form(found['verb'] or 'check')} every {found['what']}"
             return TeamWish("share", (Part("all", order),), one_each=True)
         one = r"(?P<verb>\w+(?: \w+)?) {} (?P<what>\w+(?: \w+){{0,2}}){}"
         each = rf"(?:{self.of('each')}|{self.of('all')}),? {one.format('a (?:different|separate)', '')}"
@@ -235,7 +330,7 @@ class _Words:
 
     # -- parts -----------------------------------------------------------------------------------------
 
-    def parts(self, text: str, *, asks: bool) -> TeamWish | None:
+    def parts(self, text: str, *, asks: bool, alone: bool) -> TeamWish | None:
         """Who is to do what, one part after the other as it was said."""
         if (taken := self._taken_over(text)) is not None:
             return taken
@@ -261,25 +356,75 @@ class _Words:
                 return None  # "say hello to everybody"
             text = f"{found['all']} {found['order']}"
         made = self._made(self._pieces(text))
-        only, alone = {part.who for part in made}, len(made) == 1
-        if not made or (alone and only & {"named", "rest"}) or (asks and "named" in only):
+        only = {part.who for part in made}
+        single = len(made) == 1 and not made[0].awaits and not alone
+        if not made or (single and only & {"named", "rest"}) or (asks and "named" in only):
             return None
-        return TeamWish("parts", tuple(made))
+        return (
+            TeamWish("parts", tuple(self._together(made))) if not all(part.stays for part in made) else None
+        )
 
-    def _made(self, pieces: Sequence[tuple[Who, str, str, bool]]) -> list[Part]:
+    def _bare(self, text: str, *, asks: bool) -> TeamWish | None:
+        """Robots and places, but not what is to be done there: "Ada the gate, Kim the desk"."""
+        pieces = self._pieces(text)
+        if len(pieces) < 2 or asks or any(piece[0] != "named" or piece[3] for piece in pieces):
+            return None
+        takes = rf"(?:{self.of('taking')} )?(?P<what>.+)"
+        what = [found["what"] if (found := self._match(takes, piece[2])) else "" for piece in pieces]
+        small, being = lexicon().classes["prepositions"], lexicon().classes["being"]
+        firsts = {(words.split(" ")[0].lower()) for words in what}
+        named = firsts.isdisjoint({*small, *being, ""} - lexicon().classes["determiners"])
+        deeds = any((form,) in lexicon().verbs for first in firsts for form in (first, *lemmas(first)))
+        if not named or deeds or len({*what}) < len(what):
+            return None
+        if any(len(words.split(" ")) > _NAME_WORDS or question_of(plain(tokenize(words))) for words in what):
+            return None
+        parts = (
+            Part("named", words, self._robot(piece[1])) for piece, words in zip(pieces, what, strict=True)
+        )
+        return TeamWish("parts", tuple(parts), bare=True)
+
+    def _together(self, made: Sequence[Part]) -> list[Part]:
+        """Robots that are told the same several things, as one part: they may share it."""
+        found: list[Part] = []
+        for order, group in itertools.groupby(made, key=lambda part: (part.order, part.who, part.after)):
+            parts = [*group]
+            same = len(parts) > 1 and order[1] == "named" and not order[2] and parts[0].order
+            if (
+                same
+                and re.search(r"\band\b|,", parts[0].order)
+                and all(part == replace(parts[0], robot=part.robot) for part in parts)
+            ):
+                named = {part.robot for part in parts}
+                others = tuple(name for name in self._robots.values() if name not in named)
+                parts = [replace(parts[0], who="all", robot="", without=others)]
+            found += parts
+        return found
+
+    def _robot(self, subject: str) -> str:
+        return self._robots.get(subject.lower(), self._hearer if subject.lower() == "you" else "")
+
+    def _made(self, pieces: Sequence[_Piece]) -> list[Part]:
         """The parts of pieces, those that wait behind those that they wait for; none if one is no order."""
         made: list[Part] = []
-        for who, subject, order, after in pieces:
+        for who, subject, order, after, awaits in pieces:
             told = re.match(r"\w+s\b", order) and not self._match(rf"{self.of('modal')} .+", order)
             if len(pieces) == 1 and told and re.match(self.of("indefinite"), f"{subject} {order}"):
                 return []  # "somebody comes to the gate"
             own = self._part(who, subject, order, after=after, known=made)
             if own is None:
                 return []
-            made.append(own)
+            made.append(replace(own, awaits=awaits if awaits != own.robot else ""))
+        named = tuple(part.robot for part in made if part.robot)
+        made = [
+            replace(part, without=(*part.without, *named)) if part.who == "rest" else part
+            for part in _as_others(made)
+        ]
+        doers = {part.robot for part in made}
+        made = [replace(part, awaits="") if part.awaits in doers else part for part in made]
         if [part.after for part in made] == [True, False]:  # "Kim goes when Ada is there. Ada goes."
             made.reverse()
-        return [] if len(made) > 1 and made[0].after else made
+        return [] if len(made) > 1 and made[0].after and not made[0].awaits else made
 
     def _called(self, text: str) -> tuple[str, ...]:
         """The robots that are named."""
@@ -301,36 +446,42 @@ class _Words:
         robot, of = self._robots[found["robot"].lower()], self._robots[found["of"].lower()]
         return TeamWish("parts", (Part("named", "", robot, of=of),))
 
-    def _pieces(self, text: str) -> list[tuple[Who, str, str, bool]]:
-        """The parts as said: who, in which words, what to do, whether it comes after the one before."""
+    def _pieces(self, text: str) -> list[_Piece]:
+        """The parts as said."""
         when = self.of("when")
+        you = "|you" if self._hearer else ""
+        further = rf"(?<=[\w,;.] ){self.of('further')}"
         subjects = "|".join(
             f"(?P<{who}>{self.of(who)}(?: {self.of('but')})?)"
             for who in ("one", "some", "rest", "each", "all")
         )
+        subjects = subjects.replace("(?P<one>", f"(?P<one>{further}|", 1)
         opening = (
             rf"(?P<gap>^|[,;.]? (?:{self.of('meanwhile')} )?|[,;.] ?)"
             rf"(?P<then>{self.of('then')},? )?(?P<when>{when},? )?"
-            rf"(?:{subjects}|(?P<named>{self._names}))(?=[,:]? \w)"
+            rf"(?:{subjects}|(?P<named>{self._names}{you}))(?=[,:]? \w)"
         )
         found = [
             one
             for one in re.finditer(opening, text, re.IGNORECASE)
             if not text[: one.start()].lower().endswith(_INSIDE)
+            and not ((one["named"] or "").lower() == "you" and one["gap"] == " ")
         ]
         if not found or found[0].start() != 0:
             return []
         ends = [one.start() for one in found[1:]] + [len(text)]
-        pieces: list[tuple[Who, str, str, bool]] = []
+        pieces: list[_Piece] = []
         for one, end in zip(found, ends, strict=True):
             who = next(name for name in _WHO if one[name])
             order = text[one.end() : end].strip(" ,;:.")
             waits = re.search(rf"[,;]? {when}$", f" {order}", re.IGNORECASE)
             order = order[: waits.start() - 1].strip() if waits else order
-            pieces.append((who, one[who], order, bool(one["then"] or one["when"] or waits)))
+            awaited = self._called((one["when"] or "") + (waits[0] if waits else ""))
+            after = bool(one["then"] or one["when"] or waits)
+            pieces.append((who, one[who], order, after, next(iter(awaited), "")))
         for at in range(len(pieces) - 2, -1, -1):
             if not pieces[at][2] and not pieces[at + 1][3]:  # "Ada and Kim go to the gate": both do
-                pieces[at] = (*pieces[at][:2], pieces[at + 1][2], pieces[at][3])
+                pieces[at] = (*pieces[at][:2], pieces[at + 1][2], *pieces[at][3:])
         return pieces
 
     def _part(
@@ -346,11 +497,12 @@ class _Words:
         part = Part(
             who,
             "",
-            self._robots.get(subject.lower(), ""),
+            self._robot(subject),
             after,
             count=next((number for word, number in _NUMBERS.items() if word in of_whom.split()), 1),
             nearest="nearest" in of_whom or "closest" in of_whom,
             without=self._called(" ".join(left_out)),
+            fullest=self._match(self.of("strongest"), of_whom) is not None,
         )
         order = re.sub(r",? first$", "", said.strip(" ,"), flags=re.IGNORECASE)
         way = re.match(r"to (\w+)", order, re.IGNORECASE)
@@ -362,8 +514,11 @@ class _Words:
             order = re.sub(r"^(?:at|by|near) (?=\w)", "go to ", order, flags=re.IGNORECASE)
         while found := re.match(rf"{self.of('modal')} ", order, re.IGNORECASE):
             order = order[found.end() :]
+        if self._match(self.of("staying"), order):
+            return replace(part, stays=True)
         if self._match(self.of("last"), order):
             return part
+        taken = self._match(rf"{self.of('taking')} (?P<what>.+)", order)
         order = _in_base_form(order)
         if self._match(self.of("home"), order):
             return replace(part, home=True)
@@ -372,19 +527,32 @@ class _Words:
         if self._match(self.of("following"), order):
             order = known[-1].order if known else ""
             return replace(part, order=order) if order else None
+        return self._deed(part, order, known, taken)
+
+    def _deed(
+        self, part: Part, order: str, known: Sequence[Part], taken: re.Match[str] | None
+    ) -> Part | None:
+        """A part with what it is to do, in words for one robot; None if that is no order."""
         if opens := re.match(self.of("opening"), order, re.IGNORECASE):
             order = f"go to{order[opens.end() :]}"
         if meets := re.match(self.of("meeting"), order, re.IGNORECASE):
             order = f"go to{order[meets.end() :]}"
         first = order.split(" ")[0].lower()
         verbs, being = lexicon().verbs, lexicon().classes["being"]
-        if known and who in ("named", "one") and (first,) not in verbs and first not in being:
+        if known and part.who in ("named", "one") and (first,) not in verbs and first not in being:
             order = f"{_opened(known[-1].order)} {order}"  # "Ada checks the gate, Kim the desk"
             first = order.split(" ")[0].lower()
         acts = (first,) in verbs and first not in being
+        named = taken and not (taken["verb"][:3] in ("tak", "get") and taken["what"].split(" ")[0] in _THE)
+        if taken and named:
+            return replace(part, order=order if acts else "", alike=taken["what"])
         return replace(part, order=order) if acts and " " in order else None
 
 
+_Piece = tuple[Who, str, str, bool, str]
+"""A part as said: who, in which words, what to do, whether it comes after another one, and after whose."""
+_NAME_WORDS: Final = 3
+_THE: Final = ("the", "a", "an", "this", "that", "some")
 _NUMBERS: Final = {"both": 2, "two": 2, "three": 3, "four": 4, "five": 5}
 _SECOND: Final = {"is": "are", "'s": " are", "has": "have", "does": "do", "was": "were"}
 _INSIDE: Final = (
@@ -392,6 +560,20 @@ _INSIDE: Final = (
     " when", " once", " after", " as soon as",
 )  # fmt: skip
 """Behind these a name is no subject: "go to, hm, Kim"."""
+
+
+def _plain(message: str) -> str:
+    return re.sub(r"\s+", " ", message.replace("’", "'")).strip(" .!?")
+
+
+def _as_others(made: Sequence[Part]) -> list[Part]:
+    """What is only "taken" is done as the others do: "Ada takes area A, Kim looks at area B"."""
+    verb = next((_opened(part.order) for part in made if part.order and not part.alike), "")
+    if not verb and any(part.alike and not part.order for part in made):
+        return []
+    return [
+        replace(part, alike=f"{verb} {part.alike}" if verb else "") if part.alike else part for part in made
+    ]
 
 
 def _shared(order: str, without: tuple[str, ...] = ()) -> TeamWish:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Sequence
 
 from parley.agents.base import Node
 from parley.errors import StoreError
@@ -52,7 +53,7 @@ class MissionBoard:
         """See `MissionBook.of`."""
         return self._book.of(order)
 
-    def relieve(self, robot: str, others: tuple[MissionPart, ...]) -> bool:
+    def relieve(self, robot: str, others: Sequence[MissionPart]) -> bool:
         """See `MissionBook.relieve`."""
         found = self._book.relieve(robot, others)
         self._show()

@@ -144,11 +144,13 @@ class Missions:
         if (reasons := self._reasons(target, said, wish)) is not None:
             self._say((target,), reasons, said)
             return True
-        if len(team) < 2 if wish is None else wish.kind == "why":
+        if wish is not None and wish.kind == "why":
             return False
         try:
             async with self._answering.thinking(target, said):
-                mission = await self._talk.mission(wish, target, said, team)
+                mission = await self._talk.unread(target, said) if wish is None else None
+                if mission is None and (len(team) > 1 or wish is not None):
+                    mission = await self._talk.mission(wish, target, said, team)
         except (LanguageError, TimeoutError) as error:
             self._answering.not_understood(target, said, halts, error)
             return True
@@ -213,6 +215,10 @@ class Missions:
             if name not in rulings or rulings[name].outcome == "refused":
                 self._board.refuse(order_id)
         self._relieve(said, mission, rulings)
+        for name in mission.stands:
+            stop = SystemCommand(command="stop")
+            order = ChatAction(system_cmd=(stop,), targets=(name,), by=said.who, words=said.message)
+            self._node.publish(topics.CHAT_ACTION, order)
         team = self._presence.names() if any(share.why for share in mission.shares) else ()
         for share in mission.shares if team else ():
             self._teams[share.robot] = team
@@ -239,12 +245,16 @@ class Missions:
                 order=ids[share.robot],
                 lines=tuple(self._node.spoken(line) for line in self._lines(share)),
                 why=self._node.spoken(share.why),
-                after=share.after,
+                after=share.after or tuple(filter(None, share.awaits[:1])),
                 steps=tuple(self._calls(share)),
             )
             for share in mission.shares
         )
-        known = [self._board.relieve(name, parts) for name in mission.relieved]
+        known = [
+            self._board.relieve(name, [part for part in parts if part.robot == taker])
+            for name, taker in mission.relieved.items()
+            if taker
+        ]
         if len(parts) > 1 and not any(known):
             self._board.begin(
                 MissionInfo(
@@ -270,16 +280,18 @@ class Missions:
         return status.catalogue if status is not None else ()
 
     def _relieve(self, said: ChatInput, mission: Mission, rulings: Mapping[str, PlanRuling]) -> None:
-        """Give up what others take over: now, or once their yes is there."""
+        """Give up what others take over, or nobody does: now, or once their yes is there."""
         outcomes = {ruling.outcome for ruling in rulings.values()}
-        for name in mission.relieved if outcomes and "refused" not in outcomes else ():
-            order = ChatAction(
-                system_cmd=(SystemCommand(command="clear"),), targets=(name,), by=said.who, words=said.message
-            )
-            if outcomes == {"done"}:
-                self._node.publish(topics.CHAT_ACTION, order)
-            else:
-                self._relieves[mission.shares[0].robot] = order
+        names = tuple(name for name in mission.relieved if name not in rulings)
+        if not names or not outcomes or "refused" in outcomes:
+            return
+        order = ChatAction(
+            system_cmd=(SystemCommand(command="clear"),), targets=names, by=said.who, words=said.message
+        )
+        if outcomes == {"done"}:
+            self._node.publish(topics.CHAT_ACTION, order)
+        else:
+            self._relieves[mission.shares[0].robot] = order
 
     def on_decision(self, decision: PlanDecision) -> None:
         """Somebody decided about a robot's steps."""
@@ -304,7 +316,8 @@ class Missions:
                 "id": ids[share.robot],
                 "reply_to": said.id,
                 "needs_yes": doubt,
-                "after": tuple(ids[name] for name in share.after),
+                "after": (*(ids[name] for name in share.after), *filter(None, share.awaits[1:])),
+                "system_cmd": share.drops,
                 "replaces": mission.dropped.get(share.robot, ""),
             }
             found.append(trusted.model_copy(update=own))
@@ -328,8 +341,8 @@ class Missions:
             return sentence(
                 "{robot} leaves its part, so nobody does it: {steps}.", robot=share.robot, steps=steps
             )
-        if share.after:
-            others = ", ".join(share.after)
+        if before := (*share.after, *filter(None, share.awaits[:1])):
+            others = ", ".join(before)
             return sentence("{robot}, as soon as {others} has done its part: {steps}.",
                             robot=share.robot, others=others, steps=steps)  # fmt: skip
         if share.why:

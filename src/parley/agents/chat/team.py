@@ -5,18 +5,20 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import combinations
 from typing import Final
 
 from parley.agents.chat.situations import Situations
 from parley.agents.chat.texts import not_there
 from parley.agents.planner.flow import pending_calls
 from parley.agents.presence import Presence
+from parley.gate.evidence import speaks_of_change
 from parley.gate.orders import UNSURE_OF_ALL
 from parley.gate.stop_words import calls_to_stop
 from parley.language.base import Language, Situation
 from parley.language.dialogue.state import Order
 from parley.latest import Latest
-from parley.messages.chat import ActionCall, ChatAction, ChatInput
+from parley.messages.chat import ActionCall, ChatAction, ChatInput, SystemCommand
 from parley.messages.status import ActorStatus, PlanProposal
 from parley.sentences import Sentence, listed, sentence, together
 from parley.team.outlook import Outlook, Survey, Task
@@ -27,6 +29,7 @@ from parley.team.wishes import (
     asked_by_name,
     is_in_turn,
     is_of_several,
+    is_unread,
     team_wish,
 )
 from parley.world.geometry import Pose2D
@@ -35,8 +38,12 @@ from parley.world.object_map import MapObject
 __all__ = ["Mission", "Share", "TeamTalk"]
 
 TELL_EACH: Final = sentence("I cannot tell what of that can be done apart. Please tell each of us its part.")
+WHO_DOES: Final = sentence("I cannot tell which of us is to do what. Please tell each of us its part.")
 IN_FULL: Final = sentence("I do not know what you mean by that. Please say it in full.")
+LEFT_OUT: Final = "What {robots} had to do before is left out."
+GIVES_UP: Final = "{robot} gives up what is left of its plan."
 CHANGES: Final = "{robot} gets no part: it would change what it is at. Please tell it by itself."
+CLEAR: Final = (SystemCommand(command="clear"),)
 _EVERYBODY: Final = ("all", "each", "rest")
 MOST_TASKS: Final = 40
 """More places than this are not shared in one order."""
@@ -53,6 +60,10 @@ class Share:
     """What of the words was not understood."""
     after: tuple[str, ...] = ()
     """Robots whose parts of this mission have to be done before."""
+    awaits: tuple[str, str] = ("", "")
+    """A robot that has to be done with an order of its own before, and that order."""
+    drops: tuple[SystemCommand, ...] = ()
+    """What the robot gives up for it of what it is at."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,8 +76,10 @@ class Mission:
     choices: tuple[str, ...] = ()
     dropped: Mapping[str, str] = field(default_factory=dict)
     """By robot: its proposal in whose place this comes."""
-    relieved: tuple[str, ...] = ()
-    """Robots whose plans are given up, as others take them over."""
+    relieved: Mapping[str, str] = field(default_factory=dict)
+    """Robots whose plans are given up, and who takes them over, if anybody does."""
+    stands: tuple[str, ...] = ()
+    """Robots that are at something and shall do nothing."""
     itself: tuple[str, str] | None = None
     """A robot, and words that only it can follow, as they change what it is at."""
 
@@ -78,6 +91,8 @@ class _Understood:
     calls: tuple[ActionCall, ...]
     tasks: list[Task]
     needs_yes: str = ""
+    drops: tuple[SystemCommand, ...] = ()
+    """What it would give up for it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,10 +130,20 @@ class TeamTalk:
 
     def wish(self, message: str, hearer: str = "") -> TeamWish | None:
         """How words spread work over robots, or ask another one than `hearer`; None if they do not."""
-        if self._survey is None or calls_to_stop(message):
+        if self._survey is None:
             return None
         robots = self._presence.ever()
-        return team_wish(message, robots) or (asked_by_name(message, robots, hearer) if hearer else None)
+        wish = team_wish(message, robots, hearer)
+        if wish is None and hearer and not calls_to_stop(message):
+            return asked_by_name(message, robots, hearer)
+        return wish
+
+    async def unread(self, target: str, said: ChatInput) -> Mission | None:
+        """A question back about words to a team of which a robot would make an order to itself."""
+        read = is_unread(said.message, self._presence.names()) if self._survey is not None else None
+        if read is None or (await self.understood(target, said.message, said))[0] is None:
+            return None
+        return Mission(text=WHO_DOES, choices=(read,) if read else ())
 
     async def mission(
         self, wish: TeamWish | None, target: str, said: ChatInput, team: Sequence[str]
@@ -144,22 +169,74 @@ class TeamTalk:
             for name in team or self._presence.names()
             if (status := self._presence.get(name)) is not None and status.state != "stopped" and status.pose
         }
+        if wish.kind == "swap":
+            return self._swapped([part.robot for part in wish.parts], members)
         if wish.count and wish.count != len(team or self._presence.names()):
             return Mission(text=sentence("Which of us do you mean? Please call us by our names."))
         work = _Work(self, said, members, plain=plain)
         if wish.kind == "nearest":
             return await work.nearest(wish.about)
         if wish.bare:
-            what = wish.parts[0].order
-            text = sentence("What shall we do about {what}?", what=what)
-            spread = (f"Check {what}, split between you", f"Go to {what}, split between you")
-            return Mission(text=text, choices=spread)
+            return self._without_deed(wish)
         mission = await work.parts(wish, target)
+        if mission is not None and wish.anew:
+            mission = self._afresh(mission, target)
         if mission is None or not mission.shares or all(part.who not in _EVERYBODY for part in wish.parts):
             return mission
         spared = {name for part in wish.parts for name in part.without}
         out = [name for name in team or self._presence.names() if name not in {*members, *spared}]
         return replace(mission, text=together(mission.text, *filter(None, map(self._why_out, out))))
+
+    def _without_deed(self, wish: TeamWish) -> Mission:
+        """A question what is to be done, where only places are named."""
+        if wish.kind == "parts":
+            ways = (
+                ", ".join(f"{part.robot} {verb} {part.order}" for part in wish.parts)
+                for verb in ("checks", "goes to")
+            )
+            return Mission(text=sentence("What shall we do there?"), choices=tuple(ways))
+        (part,) = wish.parts
+        who = [name for name in self._presence.names() if name not in part.without]
+        lead = f"{' and '.join(who)} " if part.without else ""
+        among = "between them" if part.without else "split between you"
+        ways = (f"{lead}{verb} {part.order}, {among}" for verb in ("check", "go to"))
+        choices = tuple(f"{way[:1].upper()}{way[1:]}" for way in ways)
+        return Mission(text=sentence("What shall we do about {what}?", what=part.order), choices=choices)
+
+    def _afresh(self, mission: Mission, target: str) -> Mission:
+        """The same in place of what was said last to a robot, and of what those who do it are at."""
+        doers, given = {share.robot for share in mission.shares}, self._given_on.get(target)
+        concerned = {target, *doers, *(given.takers if given is not None else ())}
+        busy = sorted(name for name in concerned if self.is_busy(name))
+        if not mission.shares or not busy:
+            return mission
+        text = sentence(LEFT_OUT, robots=listed(busy))
+        shares = tuple(
+            replace(one, drops=CLEAR if one.robot in busy else one.drops) for one in mission.shares
+        )
+        gone = {name: "" for name in busy if name not in doers}
+        return replace(
+            mission, shares=shares, text=together(text, mission.text), relieved={**mission.relieved, **gone}
+        )
+
+    def _swapped(self, named: Sequence[str], members: Mapping[str, ActorStatus]) -> Mission | None:
+        """Two robots do what is left of each other's plans; None: none of them have such."""
+        left = {name: tasks for name in members if (tasks := self.left(name))}
+        two = [name for name in named or left if name in left]
+        if not left or (len(two) < 2 and not named):
+            return None
+        if len(two) < 2:
+            idle = next((name for name in named if name not in left), "")
+            return Mission(text=sentence("{robot} has nothing left to do.", robot=idle))
+        if len(two) > 2:
+            pairs = tuple(f"Swap {one} and {other}" for one, other in combinations(two, 2))
+            return Mission(text=sentence("Which two of us do you mean?"), choices=pairs)
+        shares = []
+        for robot, other in (two, two[::-1]):
+            if not can_do(members[robot], left[other]):
+                return Mission(text=sentence("{robot} cannot do that.", robot=robot))
+            shares.append(Share(robot, tuple(call for task in left[other] for call in task), drops=CLEAR))
+        return Mission(tuple(shares), relieved=dict((two, two[::-1])))
 
     def _why_out(self, robot: str) -> Sentence | None:
         """Why a robot that is there takes no part in what everybody was told."""
@@ -196,10 +273,13 @@ class TeamTalk:
         situation = await self._situation(robot, words, said)
         answer = await self._language.interpret(situation)
         calls = answer.queue or answer.offer
-        if not calls or answer.system_cmd or answer.alarm or answer.targets not in ((), (robot,)):
+        drops = answer.system_cmd if speaks_of_change(said.message) else ()
+        changes = bool(answer.system_cmd) and {c.command for c in drops} - {"clear", "pop"} != set()
+        changes = changes or len(drops) < len(answer.system_cmd)
+        if not calls or changes or answer.alarm or answer.targets not in ((), (robot,)):
             return None, answer
         doubt = answer.needs_yes or ("" if answer.queue else UNSURE_OF_ALL)
-        return _Understood(calls, tasks_of(calls, situation.catalogue), doubt), answer
+        return _Understood(calls, tasks_of(calls, situation.catalogue), doubt, drops), answer
 
     async def outlooks(
         self,
@@ -267,6 +347,16 @@ class TeamTalk:
         name = next(iter(found))
         return name, why(name, whole, 0, outlooks, able, batteries)
 
+    def order_of(self, robot: str) -> str:
+        """The order that a robot does last of what it has to do; empty: it has nothing to do."""
+        plan = self._known.plans.get(robot)
+        orders = [step.order for step in plan.steps if step.order] if plan is not None else []
+        return orders[-1] if orders and self.is_busy(robot) else ""
+
+    def offers(self, robot: str) -> bool:
+        """Whether steps of a robot wait for a yes."""
+        return self._offered(robot) is not None
+
     def charging(self, robot: str) -> list[MapObject]:
         """Where robots charge, as a robot's map has it."""
         return [item for item in self._known.objects(robot) if item.charges]
@@ -287,6 +377,14 @@ def can_do(status: ActorStatus, tasks: Sequence[Task]) -> bool:
     return all(call.name in known for task in tasks for call in task)
 
 
+def _how_to_share(part: Part, words: str, robots: Sequence[str]) -> Mission:
+    """Ask whether several things are to be shared, or done by everybody."""
+    text = sentence("Shall we share that, or shall each of us do all of it?")
+    but = f" but {' and '.join(part.without)}" if part.without else ""
+    share = f"{' and '.join(robots)} {words}, between them" if but else f"{words}, split between you"
+    return Mission(text=text, choices=(share, f"each of you{but}: {words}"))
+
+
 class _Work:
     """One message to a team.
 
@@ -304,6 +402,7 @@ class _Work:
         self._batteries = {name: status.battery for name, status in members.items()}
         self._shares: list[Share] = []
         self._notes: list[str] = []
+        self._stands: list[str] = []
         self._dropped: dict[str, str] = {}
 
     async def nearest(self, place: str) -> Mission:
@@ -327,11 +426,15 @@ class _Work:
         """Who does what of an order."""
         before: tuple[str, ...] = ()
         for part in wish.parts:
-            if part.of:
-                return self._taken_over(part)
+            if part.stays:
+                self._stay(self._of(part, {share.robot for share in self._shares}))
+                continue
+            of = part.of or (target if part.instead else "")
+            if of and not (part.instead and (self._team.offers(of) or not self._team.left(of))):
+                return self._taken_over(part, of)
             if part.home:
-                return self._where_to(part)
-            words, stops = await self._words(part, target)
+                return self._where_to(part, alone=len(wish.parts) == 1)
+            words, stops = await self._words(part, of or target)
             if stops is not None:
                 return stops
             taken = {share.robot for share in self._shares}
@@ -345,40 +448,64 @@ class _Work:
             if stops is not None:
                 return stops if stops.text else None
             new = self._shares[begun:]
-            if part.after:
+            if part.awaits:
+                self._wait_for(part.awaits, begun)
+            elif part.after:
                 self._shares[begun:] = [replace(share, after=before) for share in new]
             before = tuple(share.robot for share in new)
         if len({share.robot for share in self._shares}) < len(self._shares):
             return Mission(text=TELL_EACH)
-        return Mission(tuple(self._shares), together(*dict.fromkeys(self._notes)), dropped=self._dropped)
+        doubt = next((share.needs_yes for share in self._shares if share.needs_yes), "")
+        shares = tuple(replace(share, needs_yes=doubt) for share in self._shares)  # all wait for one yes
+        given_up = sorted(share.robot for share in shares if share.drops)
+        if given_up:
+            self._notes.append(sentence(LEFT_OUT, robots=listed(given_up)))
+        text = together(*dict.fromkeys(self._notes))
+        return Mission(shares, text, dropped=self._dropped, stands=tuple(self._stands))
 
-    def _taken_over(self, part: Part) -> Mission:
+    def _stay(self, members: Mapping[str, ActorStatus]) -> None:
+        """These do nothing."""
+        for name in members:
+            stands = not self._team.is_busy(name) or self._team.stands(name)
+            self._stands += [] if stands else [name]
+            self._notes.append(sentence("{robot} stays where it is.", robot=name))
+
+    def _wait_for(self, robot: str, begun: int) -> None:
+        """What was given out from `begun` on comes after what a robot is at."""
+        order = self._team.order_of(robot)
+        if not order:
+            self._notes.append(sentence("{robot} has nothing left to do.", robot=robot))
+        else:
+            self._shares[begun:] = [replace(share, awaits=(robot, order)) for share in self._shares[begun:]]
+
+    def _taken_over(self, part: Part, of: str) -> Mission:
         """One robot does what is left of another one's plan."""
         status = self._members.get(part.robot)
-        tasks = self._team.left(part.of)
+        tasks = self._team.left(of)
         if status is None:
             text = sentence("{robot} is not ready, so nothing of that has begun.", robot=part.robot)
         elif not tasks:
-            text = sentence("{robot} has nothing left to do.", robot=part.of)
+            text = sentence("{robot} has nothing left to do.", robot=of)
         elif not can_do(status, tasks):
             text = sentence("{robot} cannot do that.", robot=part.robot)
         else:
             calls = tuple(call for task in tasks for call in task)
-            text = sentence("{robot} gives up what is left of its plan.", robot=part.of)
-            return Mission((Share(part.robot, calls),), text, relieved=(part.of,))
+            text = sentence(GIVES_UP, robot=of)
+            return Mission((Share(part.robot, calls),), text, relieved={of: part.robot})
         return Mission(text=text)
 
-    def _where_to(self, part: Part) -> Mission:
+    def _where_to(self, part: Part, *, alone: bool) -> Mission:
         """It is to go back, and nobody said where to: mostly that is where robots charge."""
         known = {item.description for name in self._members for item in self._team.charging(name)}
         who = part.robot or "Everybody"
-        choices = tuple(f"{who} back to the {name}" for name in sorted(known))
+        but = f" but {' and '.join(part.without)}" if part.without else ""
+        choices = tuple(f"{who}{but} back to the {name}" for name in sorted(known)) if alone else ()
         return Mission(text=sentence("Where to? Please say it with the place."), choices=choices)
 
     async def _words(self, part: Part, target: str) -> tuple[str, Mission | None]:
         """The words of a part, with what "that" means."""
-        if part.order:
-            return part.order, None
+        if part.order or part.alike:
+            return part.order or part.alike, None
         words, proposal = await self._team.said_last(target, self._said)
         if not words:
             others = [name for name in self._members if name != part.robot and self._team.left(name)]
@@ -419,6 +546,8 @@ class _Work:
         """Take up a part. A mission with a text stops all of it, an empty one leaves it to each robot."""
         read = await self._read(words, own)
         able = {name: found for name, (found, _) in read.items() if found is not None}
+        if not able and part.alike and part.alike != words:
+            return await self._part(part, part.alike, own, wish)
         if not able:
             answer = next(iter(read.values()))[1]
             if self._plain or answer.alarm:
@@ -431,25 +560,37 @@ class _Work:
         splits = alike(first.tasks) and not is_in_turn(words)
         if wish.kind == "share" and not splits and len(first.tasks) > 1:
             return Mission(text=TELL_EACH)
-        together = part.who == "all" and wish.kind == "parts" and len(first.tasks) > 1
-        if together and not (splits and (is_of_several(words) or " and " not in words)):
-            text = sentence("Shall we share that, or shall each of us do all of it?")
-            but = f" but {' and '.join(part.without)}" if part.without else ""
-            each = f"each of you{but}: {words}"
-            return Mission(text=text, choices=(each,) if but else (f"{words}, split between you", each))
+        together = part.who in ("all", "rest") and wish.kind == "parts" and len(own) > 1 < len(first.tasks)
+        fits = len(first.tasks) == len(own) == (part.count if part.who == "all" else len(own))
+        if together and not (splits and (fits or is_of_several(words) or " and " not in words)):
+            return _how_to_share(part, words, [*own])
         if part.who in ("one", "some"):
             tasks = [first.calls] * part.count
-            return await self._allot(tasks, first, able, one_each=True, nearest=part.nearest)
+            return await self._allot(
+                tasks, first, able, one_each=True, nearest=part.nearest, fullest=part.fullest
+            )
         if wish.kind == "share" or together:
             tasks = list(first.tasks) if splits else [first.calls]
             return await self._allot(tasks, first, able, one_each=wish.one_each)
+        self._each(part, own, able, read)
+        return None
+
+    def _each(
+        self,
+        part: Part,
+        own: Mapping[str, ActorStatus],
+        able: Mapping[str, _Understood],
+        read: Mapping[str, tuple[_Understood | None, ChatAction]],
+    ) -> None:
+        """Everybody does all of a part."""
         for name in own:
             if part.who == "rest" and self._team.stands(name):
                 self._notes.append(
                     sentence("{robot} is waiting for somebody, so it gets no part.", robot=name)
                 )
             elif name in able:
-                self._shares.append(Share(name, able[name].calls, needs_yes=able[name].needs_yes))
+                one = able[name]
+                self._shares.append(Share(name, one.calls, needs_yes=one.needs_yes, drops=one.drops))
             else:
                 said = read[name][1]
                 note = sentence(
@@ -458,7 +599,6 @@ class _Work:
                 if said.system_cmd:
                     note = sentence(CHANGES, robot=name)
                 self._notes.append(note)
-        return None
 
     async def _allot(
         self,
@@ -468,6 +608,7 @@ class _Work:
         *,
         one_each: bool,
         nearest: bool = False,
+        fullest: bool = False,
     ) -> Mission | None:
         """Give tasks to those who are done soonest, or one to the nearest."""
         if len(tasks) > MOST_TASKS:
@@ -487,12 +628,19 @@ class _Work:
         if nearest and outlooks:
             closest = min(outlooks, key=lambda name: outlooks[name].ways_m[0])
             takers = {closest: outlooks[closest]}
+        if fullest:
+            most = max((self._batteries.get(name) or 0.0 for name in outlooks), default=0.0)
+            takers = {
+                name: one for name, one in outlooks.items() if (self._batteries.get(name) or 0.0) >= most
+            }
         routes = shared(tasks, takers, able, self._batteries, one_each=one_each) if takers else None
         if routes is None:
             text = sentence("We cannot do all of that.")
             return Mission(text=text)
         for name, route in routes.items():
             reason = why(name, route[0], tasks.index(route[0]), outlooks, able, self._batteries)
+            if fullest and len(takers) < len(outlooks):
+                reason = sentence("{robot} has the fullest battery", robot=name)
             calls = in_turn(route, search=len(route) > 1 and is_search(first.calls))
-            self._shares.append(Share(name, calls, reason, first.needs_yes))
+            self._shares.append(Share(name, calls, reason, first.needs_yes, drops=read[name].drops))
         return None
