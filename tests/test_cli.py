@@ -334,3 +334,18 @@ def test_a_question_that_is_not_answered_with_yes_does_nothing(answer: bytes) ->
     assert asking.returncode == 1
     os.close(ours)
     os.close(theirs)
+
+
+def test_maps_and_pictures_of_a_world_are_written_where_one_says(tmp_path: Path) -> None:
+    done = parley("world", "map", str(DEMO / "world.yaml"), str(tmp_path / "new" / "maps"))
+    assert done.returncode == 0
+    assert {file.name for file in (tmp_path / "new" / "maps").iterdir()} == {
+        "object_map.json",
+        "map.yaml",
+        "map.pgm",
+    }
+    for out, why in (("picture", "let it end in .png"), ("none/picture.png", "cannot be written")):
+        done = parley("world", "picture", str(DEMO / "world.yaml"), str(tmp_path / out))
+        assert done.returncode == 2
+        assert why in done.stderr
+        assert "Traceback" not in done.stderr

@@ -11,7 +11,7 @@ from PIL import Image
 from parley.cli.on_loop import on_loop
 from parley.clock import SimClock
 from parley.errors import ConfigError
-from parley.sim.export import export_maps
+from parley.sim.export import MAP_NAME, OBJECT_MAP_FILE, export_maps
 from parley.sim.simulator import Simulator
 from parley.sim.world_file import WorldFile
 
@@ -39,7 +39,13 @@ def make_map(
     out: Annotated[Path, typer.Argument(help="Folder for object_map.json, map.yaml and map.pgm.")],
 ) -> None:
     """Survey the world: a ROS map for its first robot, and the object map."""
-    export_maps(WorldFile.load(file), out)
+    world = WorldFile.load(file)
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        export_maps(world, out)
+    except OSError as error:
+        raise ConfigError(f"{out} cannot be written to: {error.strerror}") from error
+    typer.echo(f"Written into {out}: {OBJECT_MAP_FILE}, {MAP_NAME}.yaml and {MAP_NAME}.pgm")
 
 
 @app.command("picture")
@@ -60,7 +66,12 @@ def picture(
 async def _picture(world: WorldFile, out: Path, robot: str, width: int) -> None:
     async with Simulator(world, clock=SimClock()) as simulator:
         pixels = (await simulator.photograph(robot)).frame.rgb if robot else await simulator.top_down(width)
-    Image.fromarray(pixels).save(out)
+    try:
+        Image.fromarray(pixels).save(out)
+    except ValueError as error:
+        raise ConfigError(f"{out} is no name of a picture: let it end in .png") from error
+    except OSError as error:
+        raise ConfigError(f"{out} cannot be written: {error.strerror}") from error
 
 
 def _robot(world: WorldFile, name: str) -> str:

@@ -168,7 +168,9 @@ interface LabelsProps {
 function Labels({ things, rooms, candidates, rovers, view, size, robotPx }: LabelsProps) {
   const robots = rovers.map((rover): Label => {
     const at = toScreen(view, size, rover.pose);
-    return { id: `robot ${rover.name}`, texts: rover.title ? [rover.title, rover.name] : [rover.name], at: { x: at.x, y: at.y + robotPx + LABEL_BELOW_PX / 2 } };
+    const away = robotPx + LABEL_BELOW_PX / 2;
+    const [below, above] = [{ x: at.x, y: at.y + away }, { x: at.x, y: at.y - away }];
+    return { id: `robot ${rover.name}`, texts: rover.title ? [rover.title, rover.name] : [rover.name], at: below, others: [above] };
   });
   const boxes = things.map((thing) => boxOfThing(thing, view, size));
   const around = extentOf(boxes);

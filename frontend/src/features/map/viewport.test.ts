@@ -82,6 +82,17 @@ describe('labels on a map', () => {
     expect(put([label('small', small, true)])).toEqual([]);
   });
 
+  it('stand nearer to what they name than to anything else, and not half over an edge', () => {
+    const gate = { left: 336, right: 340, top: 305, bottom: 348 };
+    const area = { left: 279, right: 324, top: 246, bottom: 285 };
+    const within = { left: 50, right: 340, top: 170, bottom: 349 };
+    const gateLabel = { id: 'gate', texts: ['loading gate'], at: { x: 338, y: 326 }, names: gate, within };
+    const robot = { id: 'robot', texts: ['Leo'], at: { x: 300, y: 242 }, others: [{ x: 300, y: 210 }] };
+    const written = roomForLabels([robot, gateLabel], { width: 390, height: 380 }, [{ at: { x: 300, y: 226 }, radius: 6 }], [gate, area]);
+    expect(written.get('gate')).toMatchObject({ x: 294, y: 326.5 }); // left of it: above, the area would seem to be called so
+    expect(written.get('robot')?.y).toBe(210);
+  });
+
   it('put the name of a room where no thing is', () => {
     const room = { name: 'hall', corners: [[0, 0], [8, 0], [8, 6], [0, 6]] as [number, number][] };
     const thing = (x: number, y: number) => ({ id: 'a', kind: 'box', description: '', x, y, width: 2, height: 1, aliases: [], found: false });

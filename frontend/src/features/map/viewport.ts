@@ -105,6 +105,8 @@ const ROOM_FOR_NAME_M = { x: 0.7, y: 0.15 };
 const ROOM_LETTER_PX = 9.5;
 const LETTER_PX = 6.5;
 const LINE_PX = 16;
+const CLEAR_PX = 6;
+const WIDE = /[mw@%]/gi;
 
 export interface Label {
   id: string;
@@ -146,6 +148,11 @@ const meet = (a: Box, b: Box) => a.right >= b.left && a.left <= b.right && a.bot
 const isIn = (box: Box, outer: Box) => box.left >= outer.left && box.right <= outer.right && box.top >= outer.top && box.bottom <= outer.bottom;
 const between = (low: number, value: number, high: number) => (low > high ? (low + high) / 2 : Math.min(high, Math.max(low, value)));
 
+/** Whether words are so far from all other things that they are taken for the name of none, nor written over an edge. */
+const isClear = (box: Box, things: readonly Box[], own: Box | undefined) =>
+  things.every((thing) => thing === own || isIn(box, thing) || !meet(grown(box), thing));
+const grown = ({ left, right, top, bottom }: Box): Box => ({ left: left - CLEAR_PX, right: right + CLEAR_PX, top: top - CLEAR_PX, bottom: bottom + CLEAR_PX });
+
 /** Where words about a thing may stand: in it, below, above, right and left of it. */
 function placesAt(thing: Box, half: number, isInside: boolean): readonly Place[] {
   const x = (thing.left + thing.right) / 2;
@@ -173,7 +180,7 @@ export function roomForLabels(
   const taken = new Map(marks.map(({ at, radius }, index) => [`mark ${index}`, around(at, radius, 2 * radius)]));
   const written = new Map<string, Written>();
   const write = ({ id, at, others = [], names, isInside = false, letterPx = LETTER_PX, within = screen }: Label, text: string, isShortest: boolean): boolean => {
-    const half = (text.length * letterPx) / 2;
+    const half = ((text.length + (text.match(WIDE)?.length ?? 0) / 2) * letterPx) / 2;
     const kept = ({ x, y }: Place): Place => ({
       x: between(within.left + half, x, within.right - half),
       y: between(within.top + LINE_PX / 2, y, within.bottom - LINE_PX / 2),
@@ -183,7 +190,8 @@ export function roomForLabels(
       isIn(box, isShortest ? screen : within) && isIn(box, screen) && isFree(box) && [...taken].every(([other, its]) => other === id || !meet(box, its));
     const isSeen = isIn(around(at, 0, 0), screen); // else its name would stand at the edge
     const places = names ? placesAt(names, half, isInside) : [at, ...others];
-    const place = isSeen && places.map(kept).find((one) => fits(around(one, half, LINE_PX)));
+    const free = isSeen ? places.map(kept).filter((one) => fits(around(one, half, LINE_PX))) : [];
+    const place = free.find((one) => isClear(around(one, half, LINE_PX), things, names)) ?? free[0];
     if (!place) return false;
     taken.set(id, around(place, half, LINE_PX));
     written.set(id, { ...place, text });
