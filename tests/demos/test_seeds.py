@@ -98,3 +98,10 @@ async def test_a_look_somewhere_else_is_none_and_a_plan_that_ended_is_not_waited
     ):
         story = Story.model_validate({"robot": "Leo", "steps": [{"say": "Check Area A."}, expected]})
         assert (await played(replace(demo, told=story), tmp_path))[0].partition(":")[0] == reason
+
+
+async def test_a_robot_that_has_nothing_to_do_is_not_waited_for(tmp_path: Path) -> None:
+    steps = [{"say": "Where are you?"}, {"robot": "TIAGo", "told": ["so I begin"]}]
+    told = Story.model_validate({"robot": "Leo", "steps": steps})
+    result = await played(replace(load_demo("fleet"), told=told), tmp_path)
+    assert result[0].partition(":")[0] == "not_told"

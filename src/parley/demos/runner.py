@@ -25,6 +25,8 @@ __all__ = ["Played", "StoryBroken", "StoryResult", "play"]
 
 BEATS_S: Final = 3.0
 """Wall time within which a robot surely says where it is."""
+STILL_S: Final = 30.0
+"""Robot time after which nobody who is at nothing says anything any more."""
 PATIENCE_S: Final = 120.0
 """Wall time to wait for one thing to happen; a drive through a building takes seconds at full speed."""
 
@@ -356,10 +358,17 @@ class _Player:
 
     async def _hear(self, parts: tuple[str, ...]) -> None:
         """Something that is told; it breaks the story if the plan ends, or is asked about, without it."""
-        runs = not self._idle()
+        runs, clock = not self._idle(), self._system.clock
+        still_since_s: float | None = None
 
         def over() -> bool:
-            return runs and (self._idle() or self._observer.questions.newest(self._robot) is not None)
+            nonlocal still_since_s
+            if runs and (self._idle() or self._observer.questions.newest(self._robot) is not None):
+                return True
+            names = self._system.robot_names
+            moves = any(self._observer.state(name) == "running" for name in names)
+            still_since_s = None if moves else clock.now_s() if still_since_s is None else still_since_s
+            return still_since_s is not None and clock.now_s() - still_since_s > STILL_S
 
         found = await self._next_said(lambda said: all(_is_in(part, said.message) for part in parts), over)
         if found is None:

@@ -123,6 +123,8 @@ class Log:
         facts = self._facts.get(key)
         if facts is None:
             return
+        if event.state == "RUNNING" and facts.over:  # it is done once more
+            facts.over, facts.left_text = False, ""
         facts.work.on_event(event)
         if event.progress is not None:
             facts.left_text = event.progress_text
@@ -141,7 +143,12 @@ class Log:
         """What is known at this moment."""
         plan = self._plan
         steps: tuple[PlanStep, ...] = plan.steps if plan is not None else ()
-        newest = next(reversed(self._facts.values()), _Facts(over=True))
+        at_work = [
+            self._facts.get((plan.graph_name, step.node))
+            for step in reversed(steps)
+            if plan is not None and step.state in ("running", "paused")
+        ]
+        newest = next((one for one in at_work if one is not None and not one.over), _Facts(over=True))
         return Dialogue(
             plan=plan.state if plan is not None else "idle",
             steps=steps,
