@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from parley.files import words_in
-from parley.team.wishes import Part, asked_by_name, team_wish
+from parley.team.wishes import Part, asked_by_name, is_unread, team_wish
 
 ROBOTS = ("Ada", "Kim")
 SAYS = [(kind, say) for kind, says in words_in("parley.team", "wishes")["tests"].items() for say in says]
@@ -50,6 +50,26 @@ def test_sentences_of_the_data_are_read_as_it_says(kind: str, say: str) -> None:
             "go to the dock, all of you except Ada and Kim",
             [Part("all", "go to the dock", without=("Ada", "Kim"))],
         ),
+        ("don't send Kim. Check all boxes between you", [Part("all", "Check all boxes", without=("Kim",))]),
+        ("only Ada goes on, the rest can stop", [Part("rest", "", without=("Ada",), stays=True)]),
+        (
+            "Ada takes box 2, the others look at box 3",
+            [
+                Part("named", "take box 2", "Ada", alike="look at box 2"),
+                Part("rest", "look at box 3", without=("Ada",)),
+            ],
+        ),
+        ("Kim, not you", [Part("named", "", "Kim", instead=True)]),
+        ("not Ada, take Kim for that", [Part("named", "", "Kim", of="Ada", instead=True)]),
+        (
+            "when Ada is done with that, Kim goes to the gate",
+            [Part("named", "go to the gate", "Kim", after=True, awaits="Ada")],
+        ),
+        (
+            "Ada goes to the gate, Kim can rest",
+            [Part("named", "go to the gate", "Ada"), Part("named", "", "Kim", stays=True)],
+        ),
+        ("whoever has the most battery should check the gate", [Part("one", "check the gate", fullest=True)]),
         ("Everybody back!", [Part("all", "", home=True)]),
         ("each of you check a different box", [Part("all", "check every box")]),
     ],
@@ -106,3 +126,25 @@ def test_a_question_is_for_whom_it_calls_whoever_hears_it(say: str, asked: str) 
 )
 def test_orders_and_questions_of_other_things_are_left_to_whoever_understands_them(say: str) -> None:
     assert asked_by_name(say, ROBOTS, "Ada") is None
+
+
+@pytest.mark.parametrize(
+    ("say", "read"),
+    [
+        ("half of you go to the gate", ""),
+        ("make sure there is always one of you at the gate", ""),
+        ("listen here, everybody go to the gate", "everybody go to the gate"),
+        ("go to the gate, then to the desk", None),
+        ("say hello to everybody", None),
+    ],
+)
+def test_words_to_a_team_are_known_as_such_though_they_are_not_read(say: str, read: str | None) -> None:
+    assert team_wish(say, ROBOTS) is None
+    assert is_unread(say, ROBOTS) == read
+
+
+def test_you_is_whoever_hears_it() -> None:
+    wish = team_wish("you go to the gate, Kim goes to the desk", ROBOTS, "Ada")
+    assert wish is not None
+    assert [part.robot for part in wish.parts] == ["Ada", "Kim"]
+    assert team_wish("you go to the gate, Kim goes to the desk", ROBOTS) is None

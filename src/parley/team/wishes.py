@@ -166,6 +166,9 @@ class _Words:
             rf"(?:{self.of('lead')} )?{self.of('afresh')}(?:[,;:.!]+(?: and| but)?| and) (?P<rest>.+)", bare
         )
         wish = self.about(text) or self._read(bare, asks=asks, alone=alone)
+        sparing = self._sparing(bare)
+        if sparing is not None and (wish is None or self._called(sparing.parts[0].order) == ()):
+            return sparing
         after = self.wish(opened["rest"], alone=True) if opened else None
         if after is not None and after.kind not in ("about", "nearest", "why"):
             return replace(after, anew=after.kind != "swap" and not any(part.instead for part in after.parts))
@@ -173,6 +176,9 @@ class _Words:
 
     def _read(self, text: str, *, asks: bool, alone: bool) -> TeamWish | None:
         """How work is spread, or spread otherwise than before."""
+        if found := self._match(self.of("only"), text):
+            on = self._called(" ".join(filter(None, found.groups())))
+            return TeamWish("parts", (Part("rest", "", without=on, stays=True),))
         if self._match(self.of("swapping"), text):
             named = self._called(text)
             two = len(named) in (0, 2)
@@ -183,6 +189,22 @@ class _Words:
             or self._bare(text, asks=asks)
             or self.parts(text, asks=asks, alone=alone)
         )
+
+    def _sparing(self, text: str) -> TeamWish | None:
+        """Work for all but those who are to have no part in it."""
+        found = self._match(rf"{self.of('sparing')}(?:[,;:.] ?(?:and |but )?| and )(?P<rest>.+)", text)
+        found = found or self._match(rf"(?P<rest>.+?){self.of('spared')}", text)
+        if found is None:
+            return None
+        said = " ".join(value for name, value in found.groupdict().items() if value and name[:3] == "out")
+        out, rest = self._called(said), found["rest"]
+        wish = self.wish(rest)
+        if wish is None and is_of_several(rest) and (rest.split(" ")[0].lower(),) in lexicon().verbs:
+            wish = _shared(rest)
+        if wish is None or any(part.robot for part in wish.parts):
+            return None
+        parts = (replace(part, without=(*part.without, *out)) for part in wish.parts)
+        return replace(wish, parts=tuple(parts))
 
     def _other(self, text: str) -> TeamWish | None:
         """Another robot than the one that has it now."""
@@ -202,6 +224,9 @@ class _Words:
         text = re.sub(
             rf"^({some}),? you(?: two| three| both| all)?,? (?=\w)", r"\1 ", text, flags=re.IGNORECASE
         )
+        text = re.sub(
+            rf"\b({self._names}),? you (?!two|three|both|all)(?=\w)", r"\1 ", text, flags=re.IGNORECASE
+        )
         told = rf"^{self._names},? (?:please )?(?=(?:tell|ask|let|have|get) {self._names}\b)"
         return re.sub(told, "", text, flags=re.IGNORECASE)
 
@@ -217,7 +242,8 @@ class _Words:
         """A list as one pattern."""
         filled = "|".join(sorted(_data()[name], key=len, reverse=True))
         filled = re.sub(r"(?<!\?P)<(\w+)>", lambda found: self.of(found[1]), filled)
-        return f"(?:{filled.replace('{robot}', self._names)})"
+        some = f"{self._names}(?:(?:,? and|,? or|,) {self._names})*"
+        return f"(?:{filled.replace('{robots}', some).replace('{robot}', self._names)})"
 
     @property
     def _names(self) -> str:
@@ -334,9 +360,8 @@ class _Words:
         """Who is to do what, one part after the other as it was said."""
         if (taken := self._taken_over(text)) is not None:
             return taken
-        if found := self._match(
-            rf"{self.of('handing')} (?P<rest>(?:{self.of('one')}|{self.of('some')}) .+)", text
-        ):
+        anyone = "|".join(self.of(who) for who in ("one", "some", "all", "each"))
+        if found := self._match(rf"{self.of('handing')} (?P<rest>(?:{anyone}) .+)", text):
             text = found["rest"]
         handing = (
             rf"(?:{self.of('handing')} (?P<robot>{self._names})|(?P<own>{self._names}) {self.of('duty')})"
@@ -346,6 +371,8 @@ class _Words:
             robot = found["robot"] or found["own"]
             if re.search(rf"\b{self._names}\b", found["order"], re.IGNORECASE):
                 text = f"{robot} {found['order']}"  # the next one has a part of its own
+                at = rf"({self._names}) (?:at|by|near)(?= )"  # "I want Ada and Kim at the gate"
+                text = re.sub(at, r"\1 go to", text, flags=re.IGNORECASE) if found["robot"] else text
             elif not self._match(self.of("last"), found["order"]) or found["robot"]:
                 return self._handed(robot, found["order"])
         if found := self._match(rf"(?P<robot>{self._names}) {self.of('modal')} {self.of('last')}", text):
@@ -374,7 +401,12 @@ class _Words:
         small, being = lexicon().classes["prepositions"], lexicon().classes["being"]
         firsts = {(words.split(" ")[0].lower()) for words in what}
         named = firsts.isdisjoint({*small, *being, ""} - lexicon().classes["determiners"])
-        deeds = any((form,) in lexicon().verbs for first in firsts for form in (first, *lemmas(first)))
+        verbs = {
+            first for first in firsts if any((form,) in lexicon().verbs for form in (first, *lemmas(first)))
+        }
+        deeds = firsts <= verbs or any(
+            words.split(" ")[0].lower() in verbs and " " in words for words in what
+        )
         if not named or deeds or len({*what}) < len(what):
             return None
         if any(len(words.split(" ")) > _NAME_WORDS or question_of(plain(tokenize(words))) for words in what):

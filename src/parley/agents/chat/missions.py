@@ -156,6 +156,10 @@ class Missions:
             return True
         if mission is None:
             return False
+        if mission.stands:
+            stop = SystemCommand(command="stop")
+            order = ChatAction(system_cmd=(stop,), targets=mission.stands, by=said.who, words=said.message)
+            self._node.publish(topics.CHAT_ACTION, order)
         if mission.itself is not None:
             robot, words = mission.itself
             self._hear(robot, said.model_copy(update={"message": words, "targets": (robot,)}))
@@ -215,10 +219,6 @@ class Missions:
             if name not in rulings or rulings[name].outcome == "refused":
                 self._board.refuse(order_id)
         self._relieve(said, mission, rulings)
-        for name in mission.stands:
-            stop = SystemCommand(command="stop")
-            order = ChatAction(system_cmd=(stop,), targets=(name,), by=said.who, words=said.message)
-            self._node.publish(topics.CHAT_ACTION, order)
         team = self._presence.names() if any(share.why for share in mission.shares) else ()
         for share in mission.shares if team else ():
             self._teams[share.robot] = team
