@@ -13,6 +13,8 @@ import parley
 from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.config import SystemConfig
 from parley.demos.catalogue import load_demo
+from parley.gate.audit_text import told as told_of
+from parley.messages.audit import AuditEvent
 from parley.sentences import LANGUAGES, in_language
 from tests.demos.house import running
 
@@ -106,6 +108,23 @@ def test_every_sentence_of_the_built_in_engine_has_a_form_in_every_language() ->
     assert others
     found = [(file, text) for file, text in all_texts() for other in others if not is_known(text, other)]
     assert found == []
+
+
+def test_what_is_noted_of_settings_has_a_form_in_every_language() -> None:
+    noted = [
+        "".join(str(part.value) if isinstance(part, ast.Constant) else "Qqq" for part in parts)
+        for file in (SOURCE / "web" / "routes").glob("*.py")
+        for call in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        if isinstance(call, ast.Call) and getattr(call.func, "attr", "") == "note"
+        for parts in [getattr(call.args[1], "values", [call.args[1]])]
+    ]
+    others = [language for language in LANGUAGES if language != "en"]
+    told = [told_of(AuditEvent(effect="setting", words=words)) for words in noted]
+    assert told
+    assert [
+        (text, other) for text in told for other in others if ENGLISH.search(in_language(text, other))
+    ] == []
+    assert [(words, other) for words in noted for other in others if in_language(words, other) == words] == []
 
 
 def test_what_actions_say_of_themselves_has_a_form_in_every_language() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Collection, Mapping, Sequence
-from contextlib import AbstractAsyncContextManager, AsyncExitStack
+from contextlib import AsyncExitStack
 from typing import TYPE_CHECKING, Final, Literal
 
 from parley.actions.builtin import BUILTIN_ACTIONS
@@ -18,6 +18,7 @@ from parley.extras import needs
 from parley.gate.book import RuleBook
 from parley.gate.stop_line import StopLine
 from parley.language.base import Language
+from parley.language.in_use import EngineInUse
 from parley.language.llm import build_language
 from parley.language.llm.usage import Usage
 from parley.memory.folder import held_folder
@@ -91,13 +92,8 @@ class System(OpenedTogether):
         self.transport: Transport = transport or transport_of(config, node=f"parley_{part}")
         self.usage = Usage()
         """What language models took, if any is asked."""
-        self.language: Language = language or build_language(
-            (config.language, *config.language_fallback),
-            config.model,
-            check=plan_problems,
-            usage=self.usage,
-            within_s=0.9 * config.language_timeout_s,
-        )
+        self.language = EngineInUse(language or self._built(config.language), self._built)
+        """What understands people."""
         self._fleet = None if part == "agents" else _fleet(world, config, robots, occupancy)
         self.clock: Clock = self._fleet.clock if self._fleet is not None else WallClock()
         self.objects = objects or (world.object_map() if world is not None else ObjectMap())
@@ -178,8 +174,7 @@ class System(OpenedTogether):
         await enter(self.transport)
         self.stop_line = await asyncio.to_thread(StopLine, config.stop_file, self.robot_names)
         stack.push_async_callback(asyncio.to_thread, self.stop_line.close)
-        if isinstance(self.language, AbstractAsyncContextManager):
-            await enter(self.language)
+        await enter(self.language)
         if self._part != "robots":
             self._nodes = Nodes(
                 self.transport,
@@ -209,6 +204,16 @@ class System(OpenedTogether):
             tell(IN_DOUBT, "error")
         if self._nodes is not None:
             await self._nodes.met(self.robot_names)
+
+    def _built(self, language: str) -> Language:
+        config = self.config.changed({"language": language})
+        return build_language(
+            (config.language, *config.language_fallback),
+            config.model,
+            check=plan_problems,
+            usage=self.usage,
+            within_s=0.9 * config.language_timeout_s,
+        )
 
     async def _listen_to_stops(self, stack: AsyncExitStack) -> None:
         refusals: Publisher[ros.String] = self.transport.publisher(topics.REJECTION)

@@ -429,7 +429,7 @@ async def test_models_on_this_machine_are_offered_and_only_looked_for_when_asked
             assert asked == []
             found = await rig.http.get("/api/models")
             assert [(one["language"], one["found"]) for one in found.json()] == [
-                ("auto:ollama:qwen3:8b", "Ollama"), ("", "MISTRAL_API_KEY"),
+                (f"auto:ollama:qwen3:8b@{address}/v1", "Ollama"), ("auto:mistral:", "MISTRAL_API_KEY"),
             ]  # fmt: skip
             assert "secret" not in found.text
         async with served("Ada", local_models=address, offline_language=False) as rig:

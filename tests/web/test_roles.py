@@ -51,6 +51,7 @@ BODIES: dict[tuple[str, str], list[tuple[Any, Effect]]] = {
     ("PUT", "/api/plans/{robot}/steps"): [({"steps": [], "revision": 0}, Effect.EDIT)],
     ("POST", "/api/robots"): [({"name": "Kim's cart"}, Effect.SETTING)],
     ("PUT", "/api/memory"): [({"data": "the box is red"}, Effect.REMEMBER)],
+    ("PUT", "/api/models"): [({"language": "auto:ollama:none"}, Effect.SETTING)],
     ("PUT", "/api/favourites"): [({"words": "go to the box"}, Effect.SPEAK)],
     ("PUT", "/api/push"): [({"endpoint": "https://localhost/", "p256dh": "x", "auth": "x"}, Effect.SEE)],
     ("PUT", "/api/rules/{rule_id}"): [

@@ -175,8 +175,9 @@ export const putFavourite = (name: string, words: string, was = '') =>
   request<unknown>('PUT', `favourites${named(name)}`, { words, was });
 export const dropFavourite = (name: string) => request<unknown>('DELETE', `favourites${named(name)}`);
 
-/** Models that are here and not used. */
+/** Models that are here and not used; one of them is put in use, and by an empty name what was there first. */
 export const getModels = () => request<ModelOffer[]>('GET', 'models');
+export const putModel = (language: string) => request<unknown>('PUT', 'models', { language });
 
 export const addRobot = (name: string) => request<unknown>('POST', 'robots', { name });
 export const removeRobot = (name: string) => request<unknown>('DELETE', `robots/${part(name)}`);

@@ -136,6 +136,8 @@ const info: ServerInfo = {
   version: '1',
   language: 'built in, works without a model',
   offline_language: true,
+      can_choose_language: false,
+      is_language_chosen: false,
   modules: {},
   examples: ['Go to the door.', 'What do you see?', 'What can you do?'],
   shown_examples: [],

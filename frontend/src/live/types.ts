@@ -62,6 +62,7 @@ export type Change =
   | Schemas['FeedChange']
   | Schemas['MemoryChange']
   | Schemas['FavouritesChange']
+  | Schemas['InfoChange']
   | Schemas['MissionsChange']
   | Schemas['RulesChange']
   | Schemas['IncidentChange']

@@ -151,6 +151,8 @@ function applyOther(world: World, change: Change): World {
   switch (change.kind) {
     case 'favourites':
       return { ...world, favourites: change.favourites };
+    case 'info':
+      return { ...world, info: change.info };
     case 'missions':
       return { ...world, missions: change.missions };
     case 'memory':

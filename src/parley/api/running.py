@@ -62,6 +62,7 @@ async def served(system: System, *, port: int | None, lan: bool) -> AsyncIterato
         port_is_wish=port is None,
         stop_line=system.stop_line,
         at_rest=system.at_rest,
+        language=system.language,
     ) as server:
         yield Page(server)
 

@@ -210,6 +210,7 @@ async def _serve(
             port_is_wish=port_is_wish,
             stop_line=system.stop_line,
             at_rest=system.at_rest,
+            language=system.language,
         ) as server,
     ):
         if system.store is not None and system.store.notice:

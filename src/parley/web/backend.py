@@ -17,6 +17,7 @@ from parley.clock import Clock, WallClock
 from parley.errors import StoreError
 from parley.gate.stop_line import StopLine
 from parley.gate.stop_words import has_stop_word
+from parley.language.in_use import EngineInUse
 from parley.messages.chat import ChatFeedback, ChatImage
 from parley.messages.map import MapView
 from parley.messages.principal import Principal, person
@@ -24,7 +25,7 @@ from parley.messages.status import PlanDecision
 from parley.transport.base import Transport
 from parley.web.bodies import ChatPost
 from parley.web.chat_state import Composed
-from parley.web.config import Module, WebConfig
+from parley.web.config import Module, WebConfig, engine_in_words
 from parley.web.feed_state import Picture
 from parley.web.feeds import Feeds
 from parley.web.keeper import Keeper
@@ -58,6 +59,7 @@ class Backend:
         clock: Wall time.
         stop_line: Of the engines, if they run in this process.
         at_rest: Whether a robot of this process stands, measured now; may be called from any thread.
+        language: What understands people, if that runs in this process.
     """
 
     state: WebState
@@ -78,8 +80,9 @@ class Backend:
         clock: Clock | None = None,
         stop_line: StopLine | None = None,
         at_rest: Callable[[str], bool | None] = lambda _: None,
+        language: EngineInUse | None = None,
     ) -> None:
-        self.transport, self.config = transport, config
+        self.transport, self.config, self.language = transport, config, language
         self._stop_line, self._at_rest = stop_line, at_rest
         self.clock: Clock = clock or WallClock()
         self.sessions = Sessions(self.clock, config.password, pairs=pairs, pair_as=config.pair_as)
@@ -185,11 +188,14 @@ class Backend:
     @property
     def info(self) -> ServerInfo:
         """What the page should know about the system behind it."""
-        config = self.config
+        config, chosen = self.config, self.language.chosen if self.language is not None else ""
+        words, alone = engine_in_words(chosen) if chosen else (config.language, config.offline_language)
         return ServerInfo(
             version=__version__,
-            language=config.language,
-            offline_language=config.offline_language,
+            language=words,
+            offline_language=alone,
+            can_choose_language=self.language is not None,
+            is_language_chosen=bool(chosen),
             modules=config.modules,
             examples=config.examples,
             tour=config.tour,

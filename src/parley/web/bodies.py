@@ -28,6 +28,7 @@ __all__ = [
     "FrameMeta",
     "Health",
     "ImageUpload",
+    "LanguagePut",
     "MemoryPut",
     "MyAccount",
     "MyPasskey",
@@ -277,6 +278,13 @@ class PushKey(WebModel):
 
     key: str
     """The server's public key."""
+
+
+class LanguagePut(WebModel):
+    """Let a model that was offered understand people."""
+
+    language: Annotated[str, StringConstraints(max_length=200, strip_whitespace=True)]
+    """As it was offered, with the model's name where that was left open; empty: what was there first."""
 
 
 class PushPut(WebModel):

@@ -71,7 +71,7 @@ def _key(change: Change) -> tuple[str, ...]:
             return ("feed", change.feed.robot, change.feed.name)
         case "memory":
             return ("memory", change.event, change.name)
-        case "favourites" | "missions" | "rules":
+        case "favourites" | "info" | "missions" | "rules":
             return (change.kind,)
         case "incident":
             return ("incident", change.incident.id)

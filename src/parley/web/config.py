@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from os import environ
 from pathlib import Path
-from typing import Any, Literal, Self
+from typing import Any, Final, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -11,7 +12,7 @@ from parley.config import SystemConfig
 from parley.messages.attendance import Unattended
 from parley.messages.principal import Role
 
-__all__ = ["MODULES", "Module", "WebConfig"]
+__all__ = ["LOCAL_MODELS", "MODULES", "Module", "WebConfig", "engine_in_words"]
 
 Module = Literal["chat", "plan", "display", "map", "memory", "robots", "rules", "incidents", "log"]
 
@@ -19,6 +20,22 @@ MODULES: tuple[Module, ...] = (
     "chat", "plan", "display", "map", "memory", "robots", "rules", "incidents", "log",
 )  # fmt: skip
 """What can be switched off."""
+
+LOCAL_MODELS: Final = "http://127.0.0.1:11434"
+"""Where Ollama usually listens."""
+
+
+def engine_in_words(language: str) -> tuple[str, bool]:
+    """What people are told of a language engine, by its name, and whether it needs no model."""
+    if ":" not in language:
+        return "built in, works without a model", True
+    provider, _, model = language.removeprefix("auto:").partition("@")[0].partition(":")
+    return f"{model} ({provider})", False
+
+
+def _local_models() -> str:
+    host = environ.get("OLLAMA_HOST", "")
+    return LOCAL_MODELS if not host else host if "://" in host else f"http://{host}"
 
 
 class WebConfig(BaseModel):
@@ -48,9 +65,9 @@ class WebConfig(BaseModel):
     """Sentences to begin with."""
     tour: tuple[str, ...] = ()
     """What is said in a story that can be played on the page, one after the other."""
-    local_models: str = "http://127.0.0.1:11434"
-    """Where a server for language models usually listens on this machine (Ollama)."""
-    language: str = "built in, works without a model"
+    local_models: str = Field(default_factory=_local_models)
+    """Where a server for language models listens (Ollama, and where Ollama's own variable says so)."""
+    language: str = engine_in_words("")[0]
     """The language engine in words for people."""
     offline_language: bool = True
     unattended: Unattended = "go_on"
@@ -81,10 +98,9 @@ class WebConfig(BaseModel):
         Raises:
             pydantic.ValidationError: One of them cannot be.
         """
-        built_in = ":" not in system.language
-        provider, _, model = system.language.partition("@")[0].partition(":")
+        words, built_in = engine_in_words(system.language)
         known = {
-            "language": cls.model_fields["language"].default if built_in else f"{model} ({provider})",
+            "language": words,
             "offline_language": built_in,
             "unattended": system.unattended,
             "unattended_after_s": system.unattended_after_s,

@@ -259,6 +259,10 @@ class ServerInfo(WebModel):
     """The language engine in words for people."""
     offline_language: bool
     """Whether it works without a model, which the page says plainly."""
+    can_choose_language: bool = False
+    """Whether another one can be put in its place while the system runs."""
+    is_language_chosen: bool = False
+    """Whether that was done, and can be undone."""
     modules: dict[str, bool] = Field(default_factory=dict)
     """chat, plan, display, map, memory, robots, incidents, log: what is switched on."""
     examples: tuple[str, ...] = ()
@@ -278,7 +282,7 @@ class ModelOffer(WebModel):
     """A language model that could understand people here, and is not used."""
 
     language: str
-    """What `--language` would be; empty: which of its models is for people to choose."""
+    """What `--language` would be; up to the colon: which of its models is for people to choose."""
     found: str
     """Where it was found: a program, or the name of a variable with a key."""
 
@@ -480,6 +484,14 @@ class FavouritesChange(WebModel):
     favourites: tuple[Favourite, ...]
 
 
+class InfoChange(WebModel):
+    """Something else understands people now."""
+
+    kind: Literal["info"] = "info"
+    seq: int
+    info: ServerInfo
+
+
 class MissionsChange(WebModel):
     """The orders to several robots are these now."""
 
@@ -523,6 +535,7 @@ Change = Annotated[
     | FeedChange
     | MemoryChange
     | FavouritesChange
+    | InfoChange
     | MissionsChange
     | RulesChange
     | IncidentChange

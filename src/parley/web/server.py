@@ -16,6 +16,7 @@ from starlette.types import ASGIApp
 from parley.clock import Clock, WallClock
 from parley.errors import ConfigError
 from parley.gate.stop_line import StopLine
+from parley.language.in_use import EngineInUse
 from parley.transport.base import Transport
 from parley.web.addresses import LOCAL_NAMES, lan_addresses
 from parley.web.app import create_app
@@ -43,6 +44,7 @@ class WebServer:
         around: Put around everything that is served in this loop, e.g. to measure it.
         stop_line: Of the engines, where they run in this process; stops go this way then.
         at_rest: Whether a robot of this process stands, measured now; may be called from any thread.
+        language: What understands people, where that runs in this process: it can be changed then.
     """
 
     live: Live
@@ -58,6 +60,7 @@ class WebServer:
         around: Callable[[ASGIApp], ASGIApp] = lambda app: app,
         stop_line: StopLine | None = None,
         at_rest: Callable[[str], bool | None] = lambda _: None,
+        language: EngineInUse | None = None,
     ) -> None:
         self._config, self._clock, self._around = config, clock or WallClock(), around
         self._port_is_wish = port_is_wish
@@ -69,6 +72,7 @@ class WebServer:
             clock=self._clock,
             stop_line=stop_line,
             at_rest=at_rest,
+            language=language,
         )
         self.instead_of = 0
         """The port that was wished for, where another program has it; else 0."""

@@ -22,6 +22,7 @@ from parley.web.models import (
     Favourite,
     FavouritesChange,
     IncidentChange,
+    InfoChange,
     MemoryChange,
     MissionsChange,
     RejectionChange,
@@ -100,6 +101,10 @@ class WebState:
         """They are these now."""
         self.favourites = tuple(favourites)
         self.log.add(FavouritesChange(seq=0, favourites=self.favourites))
+
+    def on_info(self, info: ServerInfo) -> None:
+        """Something else understands people now."""
+        self.log.add(InfoChange(seq=0, info=info))
 
     def on_missions(self, told: MissionList) -> None:
         """What has become of orders to several robots."""

@@ -9,6 +9,7 @@ import { Panel } from '@/ui/panel';
 import { InstallHint } from './install-hint';
 import { LoudChoice } from './loud-choice';
 import css from './settings-page.module.css';
+import { Models } from './understands';
 
 const themes: readonly Theme[] = ['system', 'light', 'dark', 'contrast'];
 const colours: readonly PlanColours[] = ['standard', 'traffic'];
@@ -62,6 +63,7 @@ function About() {
         <dd>{info.version}</dd>
       </dl>
       {info.offline_language && <p>{t('offlineLanguage')}</p>}
+      <Models />
       <section className={css.devices}>
         <h3>{t('otherDevices')}</h3>
         {addresses.length === 0 ? (

@@ -157,10 +157,10 @@ class ChatInterface(Node):
         talk = TeamTalk(language, self._known, self._presence, survey, self._offered.newest)
         self._board = MissionBoard(self, missions)
         self._missions = Missions(
-            self, talk, self._answering, self._known, self._presence, self._board, language.label,
+            self, talk, self._answering, self._known, self._presence, self._board, language,
             lambda robot, said: self._hear(robot, said, None),
         )  # fmt: skip
-        self._finds = Finds(self, self._answering, self._known, self._board, language.label)
+        self._finds = Finds(self, self._answering, self._known, self._board, language)
 
     async def open(self) -> None:
         """See `Node.open`."""

@@ -12,6 +12,7 @@ from parley.agents.chat.situations import Situations
 from parley.agents.planner.asking import SHALL_I, wish_of
 from parley.gate.evidence import speaks_of_searching
 from parley.gate.orders import engine
+from parley.language.base import Language
 from parley.latest import Latest
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatInput, SystemCommand
@@ -34,14 +35,14 @@ class Finds:
         answering: Hands orders on.
         known: What was heard of each robot.
         board: Follows what has become of the work of teams.
-        engine: What the language engine is called.
+        language: In whose name it happens.
     """
 
     def __init__(
-        self, node: Node, answering: Answering, known: Situations, board: MissionBoard, engine: str
+        self, node: Node, answering: Answering, known: Situations, board: MissionBoard, language: Language
     ) -> None:
         self._node, self._answering, self._known = node, answering, known
-        self._board, self._engine = board, engine
+        self._board, self._language = board, language
         self._seen: Latest[str, set[str]] = Latest()
         """By robot what it has seen since it began its newest look."""
         self._looks: Latest[str, str] = Latest()
@@ -98,7 +99,7 @@ class Finds:
                 SystemCommand(command="pop", arguments={"step": step.id}) for step in reversed(left)
             ),
             targets=(part.robot,),
-            by=engine(self._engine),
+            by=engine(self._language.label),
             behalf=mission.by,
             words=mission.words,
             needs_yes=sentence("{robot} has found “{what}”", robot=robot, what=what),

@@ -19,6 +19,7 @@ from parley.agents.presence import Presence
 from parley.errors import LanguageError
 from parley.gate.cards import labels_of, lines_of
 from parley.gate.orders import Heard, admit
+from parley.language.base import Language
 from parley.language.builtin.tokens import tokenize
 from parley.language.dialogue.questions import plain, question_of
 from parley.language.dialogue.state import Order
@@ -58,7 +59,7 @@ class Missions:
         known: What was heard of each robot.
         presence: Who is there.
         board: Where it is followed what becomes of them.
-        engine: What the language engine is called.
+        language: In whose name it happens.
         hear: Has a robot hear words in its own conversation.
     """
 
@@ -70,12 +71,12 @@ class Missions:
         known: Situations,
         presence: Presence,
         board: MissionBoard,
-        engine: str,
+        language: Language,
         hear: Callable[[str, ChatInput], None],
     ) -> None:
         self._hear = hear
         self._node, self._talk, self._answering, self._board = node, talk, answering, board
-        self._known, self._presence, self._engine = known, presence, engine
+        self._known, self._presence, self._language = known, presence, language
         self._mates: Latest[str, frozenset[str]] = Latest()
         """By robot who else was asked about in the same breath."""
         self._teams: Latest[str, tuple[str, ...]] = Latest()
@@ -303,7 +304,7 @@ class Missions:
         """The parts as orders on the person's account; None if some robot could not carry its part out."""
         parts = tuple(ChatAction(queue=share.calls, targets=(share.robot,)) for share in mission.shares)
         named = tuple(share.robot for share in mission.shares)
-        heard = Heard(said.message, said.who, target, named, self._engine)
+        heard = Heard(said.message, said.who, target, named, self._language.label)
         admitted = admit(ChatAction(others=parts), heard)
         ids = {share.robot: uuid.uuid4().hex for share in mission.shares}
         found: list[ChatAction] = []
