@@ -107,6 +107,8 @@ async def test_trying_a_plan_says_what_would_become_of_it_and_moves_nothing() ->
         assert tried.length_m > 3
         free = (await it.ask("try", robot="A", goal=(1.0, 3.0))).verdict
         assert free is not None and not free.forbidden and len(free.way) > 10
+        both = (await it.ask("try", robot="A", words=("green crate",), goal=(1.0, 3.0))).verdict
+        assert both is not None and len(both.goals) == 2 and both.goals[-1] == both.way[-1]
         assert it.system.robots["A"].pose() == start
         assert "no robot 'Z'" in (await it.ask("try", robot="Z", goal=(1.0, 3.0))).problem
 

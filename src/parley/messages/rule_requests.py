@@ -61,6 +61,8 @@ class RuleVerdict(Payload):
     length_m: float = 0.0
     expected_s: float = 0.0
     way: tuple[Point, ...] = ()
+    goals: tuple[Point, ...] = ()
+    """Where it would stand on that way, one after the other."""
     unknown: tuple[str, ...] = ()
     """Words with which no single place is meant."""
 

@@ -89,7 +89,7 @@ export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, tr
           <polyline key={name} className={css.trail} data-chosen={chosen} points={pointsOf(trails[name] ?? [])} />
         ))}
         {drawn && <Drawn corners={drawn} dotM={DOT_PX / view.scale} />}
-        {trials.map((trial, index) => trial.state === 'found' && <Tried key={index} points={trial.points} />)}
+        {trials.map((trial, index) => trial.state === 'found' && <Tried key={index} {...trial} />)}
         {rovers.map((rover) => (
           <Way key={rover.name} rover={rover} showScan={showScan} />
         ))}
@@ -119,13 +119,14 @@ export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, tr
 
 const pointsOf = (points: readonly (readonly [number, number])[]) => points.map(([x, y]) => `${x},${y}`).join(' ');
 
-/** A way that nobody drives yet, and where it ends. */
-function Tried({ points }: { points: readonly (readonly [number, number])[] }) {
-  const [x, y] = points.at(-1) ?? [0, 0];
+/** A way that nobody drives yet, and where the robot would stand on it. */
+function Tried({ points, goals }: Extract<Trial, { state: 'found' }>) {
   return (
     <g className={css.tried}>
       <polyline points={pointsOf(points)} />
-      <circle cx={x} cy={y} r={0.14} />
+      {goals.map(([x, y], index) => (
+        <circle key={index} cx={x} cy={y} r={0.14} />
+      ))}
     </g>
   );
 }

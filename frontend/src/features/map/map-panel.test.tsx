@@ -56,12 +56,13 @@ describe('the map', () => {
   });
 
   it('draws the way that waits for a yes', async () => {
-    const answers: Answers = { map: { json: mapInfo }, 'rules/try': { json: verdict({ length_m: 2, way: [[1, 2], [3, 1]] }) } };
+    const answers: Answers = { map: { json: mapInfo }, 'rules/try': { json: verdict({ length_m: 2, way: [[1, 2], [3, 1]], goals: [[2, 2], [3, 1]] }) } };
     vi.stubGlobal('fetch', network(answers));
     const proposal = { id: 'p', robot: 'Ada', message: '', changes: [], steps: [step({ id: 's' })], digest: 'd', why: '' };
     useLive.getState().takeSnapshot(snapshot({ info: { ...snapshot().info, modules: { rules: true } }, robots: [robot({ name: 'Ada' })], views: [mapView], proposals: [proposal] }));
     const { container } = render(<MapPanel />);
     await vi.waitFor(() => expect(container.querySelector('.tried polyline')?.getAttribute('points')).toBe('1,2 3,1'));
+    expect(container.querySelectorAll('.tried circle').length).toBe(2); // where each step ends
   });
 
   it('answers which one is meant by a tap on it', async () => {

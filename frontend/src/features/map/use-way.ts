@@ -11,7 +11,8 @@ import { nameOf, type Mark } from './marks';
 export type Way =
   | { state: 'idle' | 'asking' | 'unsure' | 'none' }
   | { state: 'refused'; why: string }
-  | { state: 'found'; points: readonly (readonly [number, number])[]; metres: number; seconds: number };
+  | { state: 'found'; points: Points; goals: Points; metres: number; seconds: number };
+type Points = readonly (readonly [number, number])[];
 
 const IDLE: Way = { state: 'idle' };
 
@@ -41,11 +42,11 @@ function useTrial(robot: string, trial: Trial | null): Way {
   return found.key === key ? found.way : { state: 'asking' };
 }
 
-function wayOf({ forbidden = [], unknown = [], way = [], length_m = 0, expected_s = 0 }: RuleVerdict): Way {
+function wayOf({ forbidden = [], unknown = [], way = [], goals = [], length_m = 0, expected_s = 0 }: RuleVerdict): Way {
   const why = forbidden.map((finding) => finding.text).join(' ');
   if (why) return { state: 'refused', why };
   if (unknown.length > 0) return { state: 'unsure' };
-  return length_m > 0 ? { state: 'found', points: way, metres: length_m, seconds: expected_s } : { state: 'none' };
+  return length_m > 0 ? { state: 'found', points: way, goals, metres: length_m, seconds: expected_s } : { state: 'none' };
 }
 
 /** The way to what is picked out. */

@@ -79,7 +79,9 @@ describe('labels on a map', () => {
       [...roomForLabels(labels, size, [{ at: { x: 210, y: 130 }, radius: 8 }], [large, small, ...things])].map(([id, at]) => `${id} ${at.x} ${at.y}`);
     expect(put([label('large', large), label('small', small)])).toEqual(['large 80 110', 'small 210 91']); // below it is a robot
     expect(put([label('small', small)], { ...small, top: 80, bottom: 95 })).toEqual(['small 255.5 110']);
-    expect(put([label('small', small, true)])).toEqual([]);
+    const number = { ...label('small', small, true), texts: ['1  front door', '1'] };
+    expect(put([number], { ...small, left: 221, right: 300 })).toEqual(['small 210 110']); // the number alone, on what is smaller than it
+    expect(roomForLabels([number], size, [], [small]).get('small')?.text).toBe('1');
   });
 
   it('stand nearer to what they name than to anything else, and not half over an edge', () => {

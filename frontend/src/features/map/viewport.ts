@@ -100,7 +100,7 @@ export const textsOf = ({ description, kind }: MapThing, scale: number, isOnly: 
 };
 
 /** Parts of a room's width and depth. */
-const PARTS = [0.5, 0.35, 0.65, 0.2, 0.8];
+const PARTS = [0.5, 0.35, 0.65, 0.2, 0.8, 0.1, 0.9];
 const ROOM_FOR_NAME_M = { x: 0.7, y: 0.15 };
 const ROOM_LETTER_PX = 9.5;
 const LETTER_PX = 6.5;
@@ -118,7 +118,7 @@ export interface Label {
   others?: readonly Place[];
   /** What it names, on the screen: it stands in that or beside it, never half over its edge. */
   names?: Box;
-  /** Whether it stands in what it names or nowhere. */
+  /** Whether it stands in what it names or nowhere; its shortest words on what is smaller than they are, too. */
   isInside?: boolean;
   /** Wider than others. */
   letterPx?: number;
@@ -154,11 +154,11 @@ const isClear = (box: Box, things: readonly Box[], own: Box | undefined) =>
 const grown = ({ left, right, top, bottom }: Box): Box => ({ left: left - CLEAR_PX, right: right + CLEAR_PX, top: top - CLEAR_PX, bottom: bottom + CLEAR_PX });
 
 /** Where words about a thing may stand: in it, below, above, right and left of it. */
-function placesAt(thing: Box, half: number, isInside: boolean): readonly Place[] {
+function placesAt(thing: Box, half: number, isInside: boolean, isMark: boolean): readonly Place[] {
   const x = (thing.left + thing.right) / 2;
   const y = (thing.top + thing.bottom) / 2;
   const line = LINE_PX / 2 + 1;
-  const inside = thing.right - thing.left >= 2 * half && thing.bottom - thing.top >= LINE_PX ? [{ x, y }] : [];
+  const inside = isMark || (thing.right - thing.left >= 2 * half && thing.bottom - thing.top >= LINE_PX) ? [{ x, y }] : [];
   if (isInside) return inside;
   const upright = [{ x, y: thing.bottom + line }, { x, y: thing.top - line }];
   return [...inside, ...upright, { x: thing.right + half + 3, y }, { x: thing.left - half - 3, y }];
@@ -178,6 +178,7 @@ export function roomForLabels(
 ): ReadonlyMap<string, Written> {
   const screen = { left: 0, right: size.width, top: 0, bottom: size.height };
   const taken = new Map(marks.map(({ at, radius }, index) => [`mark ${index}`, around(at, radius, 2 * radius)]));
+  const marked = new Set(taken.keys());
   const written = new Map<string, Written>();
   const write = ({ id, at, others = [], names, isInside = false, letterPx = LETTER_PX, within = screen }: Label, text: string, isShortest: boolean): boolean => {
     const half = ((text.length + (text.match(WIDE)?.length ?? 0) / 2) * letterPx) / 2;
@@ -185,11 +186,12 @@ export function roomForLabels(
       x: between(within.left + half, x, within.right - half),
       y: between(within.top + LINE_PX / 2, y, within.bottom - LINE_PX / 2),
     });
-    const isFree = (box: Box) => !names || things.every((thing) => !meet(box, thing) || (thing === names && isIn(box, thing)));
+    const isMark = isInside && isShortest;
+    const isFree = (box: Box) => !names || isMark || things.every((thing) => !meet(box, thing) || (thing === names && isIn(box, thing)));
     const fits = (box: Box) =>
-      isIn(box, isShortest ? screen : within) && isIn(box, screen) && isFree(box) && [...taken].every(([other, its]) => other === id || !meet(box, its));
+      isIn(box, isShortest ? screen : within) && isIn(box, screen) && isFree(box) && [...taken].every(([other, its]) => other === id || (isMark && marked.has(other)) || !meet(box, its));
     const isSeen = isIn(around(at, 0, 0), screen); // else its name would stand at the edge
-    const places = names ? placesAt(names, half, isInside) : [at, ...others];
+    const places = names ? placesAt(names, half, isInside, isMark) : [at, ...others];
     const free = isSeen ? places.map(kept).filter((one) => fits(around(one, half, LINE_PX))) : [];
     const place = free.find((one) => isClear(around(one, half, LINE_PX), things, names)) ?? free[0];
     if (!place) return false;

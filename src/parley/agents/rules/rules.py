@@ -23,7 +23,7 @@ from parley.messages.chat import ActionCall
 from parley.messages.principal import Principal
 from parley.messages.ros import ChatRequest, ChatResponse
 from parley.messages.rule_requests import RuleFinding, RuleRequest, RulesAnswer, RuleVerdict, RuleView
-from parley.messages.rules import Rule
+from parley.messages.rules import Point, Rule
 from parley.messages.status import ActionInfo, ActorStatus
 from parley.messages.wire import decode, encode
 from parley.sentences import SpokenLanguage, in_language
@@ -150,9 +150,14 @@ class RuleNode(Node):
             risky=_findings(judged.risky, request.language),
             length_m=round(judged.length_m, 2),
             expected_s=round(judged.expected_s, 1),
-            way=tuple((round(x, 2), round(y, 2)) for way in judged.ways for x, y in way),
+            way=tuple(_rounded(point) for way in judged.ways for point in way),
+            goals=tuple(_rounded(way[-1]) for way in judged.ways if way),
             unknown=tuple(words for words, place in places.items() if place is None),
         )
+
+
+def _rounded(point: Point) -> Point:
+    return (round(point[0], 2), round(point[1], 2))
 
 
 def _findings(findings: Sequence[Finding], language: SpokenLanguage) -> tuple[RuleFinding, ...]:
