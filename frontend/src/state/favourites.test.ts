@@ -27,6 +27,7 @@ it('goes on with more, and leaves to the person what is not plain', () => {
 
 it.each([
   ['check bay 1, bay 2 and bay 3', 'bay 2', 'check bay 1 and bay 3'],
+  ['scan bay 1 and bay 2', 'bay 1', 'scan bay 2'],
   ['check bay 1, bay 2, and bay 3.', 'bay 3', 'check bay 1, and bay 2'],
   ['check bay 1, bay 2 and bay 3', 'the bay 1', 'check bay 2 and bay 3'],
   ['Look at the box and the lamp.', 'the box', 'Look at the lamp'],
@@ -53,4 +54,22 @@ it.each([
   ['check all bays\ncheck all desks', 'bay 2'],
 ])('leaves to the person what would be guessed: %s, without %s', (words, out) => {
   expect(meantBy(`round, but skip ${out}`, [{ name: 'Round', words }])).toEqual({ unclear: out });
+});
+
+it.each([
+  ['mine boksi 1 juurde\nmine boksi 2 juurde\nmine boksi 21 juurde', 'jäta boks 2 vahele', 'Mine boksi 1 juurde. Mine boksi 21 juurde.'],
+  ['vaata boksi 1, boksi 2 ja boksi 3', 'jäta boks 2 vahele', 'vaata boksi 1 ja boksi 3'],
+  ['vaata boksi 1, boksi 2 ja boksi 3', 'ilma boksita 1', 'vaata boksi 2 ja boksi 3'],
+  ['kontrolli köögi akent ja vaata lampi', 'jäta lamp välja', 'kontrolli köögi akent'],
+  ['kontrolli kõiki bokse', 'mitte boks 2', 'kontrolli kõiki bokse, välja arvatud boks 2'],
+])('leaves out a part in Estonian, in whatever case it stands: %s, %s', (words, change, left) => {
+  expect(meantBy(`hommikuring, aga ${change}`, [{ name: 'Hommikuring', words }])).toEqual({ words: left });
+});
+
+it.each([
+  ['vaata lauda\nmine lauta', 'laud'], // both begin so
+  ['too kast ja pane see lauale', 'laud'],
+  ['vaata boksi 1 ja boksi 3', 'boks 2'],
+])('leaves to the person what would be guessed in Estonian: %s, %s', (words, out) => {
+  expect(meantBy(`ring, jäta ${out} vahele`, [{ name: 'Ring', words }])).toEqual({ unclear: out });
 });

@@ -77,7 +77,10 @@ function Form({ favourite, onDone }: { favourite: Favourite; onDone: () => void 
   const [name, setName] = useState(favourite.name);
   const [words, setWords] = useState(favourite.words);
   const submit = async () => {
-    if (await attempt(() => putFavourite(name.trim(), words, favourite.name))) onDone();
+    if (!(await attempt(() => putFavourite(name.trim(), words, favourite.name)))) return;
+    setName('');
+    setWords('');
+    onDone();
   };
   return (
     <form
