@@ -39,3 +39,21 @@ it('makes a robot that waits heard, once more when nobody answers, and no longer
   act(() => vi.advanceTimersByTime(2 * AGAIN_MS));
   expect(notes).toHaveLength(2);
 });
+
+it('shows the note of its worker on a phone, where a page may make none itself', async () => {
+  const notes: unknown[] = [];
+  const refused = () => {
+    throw new TypeError('Illegal constructor');
+  };
+  vi.stubGlobal('Notification', Object.assign(refused, { permission: 'granted' }));
+  vi.stubGlobal('navigator', {
+    ...navigator,
+    serviceWorker: { getRegistration: () => Promise.resolve({ showNotification: (...told: unknown[]) => Promise.resolve(notes.push(told)) }) },
+  });
+  vi.spyOn(document, 'hidden', 'get').mockReturnValue(true);
+  usePrefs.setState({ loud: true });
+  useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada' })] }));
+  renderHook(useHeard);
+  take(1, [question]);
+  await vi.waitFor(() => expect(notes).toEqual([['Parley', { body: 'Ada waits for you.', tag: 'Parley' }]]));
+});

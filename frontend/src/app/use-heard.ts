@@ -61,8 +61,15 @@ export function useHeard(): void {
 /** By every means there is; each may be missing or not allowed. */
 function call(message: string): void {
   if ('vibrate' in navigator) navigator.vibrate(BUZZ_MS);
-  if (document.hidden && 'Notification' in window && Notification.permission === 'granted') new Notification(NAME, { body: message, tag: NAME });
   sound();
+  if (document.hidden && 'Notification' in window && Notification.permission === 'granted') void note({ body: message, tag: NAME });
+}
+
+/** Phones show notes of a page's worker alone and refuse those that a page makes itself; elsewhere there may be no worker. */
+async function note(told: NotificationOptions): Promise<void> {
+  const worker = 'serviceWorker' in navigator ? await navigator.serviceWorker.getRegistration().catch(() => undefined) : undefined;
+  if (worker) await worker.showNotification(NAME, told).catch(() => undefined);
+  else new Notification(NAME, told);
 }
 
 function sound(): void {
