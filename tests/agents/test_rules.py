@@ -163,6 +163,21 @@ async def test_a_told_rule_is_shown_as_what_it_becomes_and_counts_after_a_yes() 
         assert it.held == []
 
 
+async def test_a_rule_that_is_told_while_another_is_asked_about_leaves_that_question_open() -> None:
+    async with crew() as it:
+        it.observer.say("never go into the green crate", "A")
+        first = await it.question()
+        it.observer.say("not faster than half a metre per second", "A", answer=True)
+        await it.observer.until(lambda: "0.5" in it.observer.said[-1].message)
+        again = it.observer.said[-2]
+        assert (again.type, again.closes, again.message) == ("request", first.id, first.message)
+        await it.say("yes", answer=True)
+        assert [rule.kind for rule in it.system.rules.rules.rules] == ["speed"]
+        await it.say("what rules are there?", answer=True)
+        await it.say("yes", answer=True)
+        assert len(it.held) == 2
+
+
 @pytest.mark.parametrize("answer", ["yes", "no"])
 async def test_a_drive_stands_while_a_zone_before_it_is_asked_about(answer: str) -> None:
     async with crew() as it:

@@ -290,6 +290,10 @@ class RuleTalk:
             return RuleReply(sentence("I will not drive before {robot} is told about the rule.", robot=asks))
         return self._confirmations.again(question) if question else None
 
+    def left(self, question: str) -> RuleReply | None:
+        """A question to which something else was said, once more; None if it is none of ours, or settled."""
+        return self._confirmations.again(question) if self.asked(question) else None
+
     @property
     def _all(self) -> tuple[Rule, ...]:
         """The rules, and what is asked about."""

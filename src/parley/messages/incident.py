@@ -21,7 +21,7 @@ class IncidentAttempt(Payload):
     asked: str = ""
     """The question, for `asked`."""
     answered: str = ""
-    """What the operator said, word for word."""
+    """What the operator said then, word for word, whether or not it was an answer."""
     tried: str = ""
     """What was then tried, in words for the operator; empty if nothing was."""
     unix_ms: int = 0

@@ -485,8 +485,10 @@ class ChatInterface(Node):
             known = taught_in(await recall(self.transport, said.message, scope=target))
             to = replace(to, places=with_names(self._known.objects(target), known))
         reply = self._rules and await self._rules.reply(said.message, said.who, to, answers=ours)
-        if not reply:
+        if not reply or self._rules is None:
             return False
+        if (left := self._rules.left(ours)) is not None:  # first, so that a yes means what was told now
+            self._reply_about_rules(target, said, left)
         self._reply_about_rules(target, said, reply, said.id)
         self._known.note(target, said.message, reply.text)
         return True
