@@ -36,6 +36,15 @@ describe('a message that did not get through', () => {
     expect(useOutbox.getState().messages).toMatchObject([{ state: 'sent' }]);
   });
 
+  it('is known to be of no use as it is where it was refused, and only there', async () => {
+    for (const [status, reply_to, refused] of [[409, 'q', true], [409, '', false], [422, '', true], [503, 'q', false]] as const) {
+      useOutbox.setState({ messages: [] });
+      vi.stubGlobal('fetch', () => Promise.resolve(new Response('{"detail": "no"}', { status })));
+      await useOutbox.getState().send({ text: `try ${status}${reply_to}`, targets: ['Ada'], reply_to, images: [] });
+      expect(useOutbox.getState().messages).toMatchObject([{ state: 'failed', refused }]);
+    }
+  });
+
   it('is forgotten when it is discarded', async () => {
     await useOutbox.getState().send({ text: 'wave', targets: ['Ada'], reply_to: '', images: [] });
     useOutbox.getState().discard(useOutbox.getState().messages[0]?.id ?? '');

@@ -2,7 +2,7 @@
 import { create, type StateCreator } from 'zustand';
 import { createJSONStorage, persist } from 'zustand/middleware';
 
-import { sendMessage, type OutgoingMessage } from '@/live/api';
+import { ApiError, sendMessage, type OutgoingMessage } from '@/live/api';
 import { useLive } from '@/live/store';
 import { explain } from './do';
 import { useToasts } from './toasts';
@@ -12,6 +12,8 @@ export interface Outgoing extends OutgoingMessage {
   state: 'sending' | 'sent' | 'failed';
   /** Why it failed, for people. */
   reason: string;
+  /** Whether it would be refused again as it is, e.g. because its question is settled. */
+  refused?: boolean;
 }
 
 interface Outbox {
@@ -22,6 +24,10 @@ interface Outbox {
 }
 
 const LONGEST_TURN_MS = 400; // a stop that is typed behind it has one second
+
+/** Sent again without a change it would be refused again: whoever wrote it may not, it cannot be read, or its question is settled. */
+const REFUSALS: ReadonlySet<number> = new Set([403, 413, 422]);
+const CONFLICT = 409;
 
 /** Said once more within it, it was pressed twice. */
 const MOMENT_MS = 500;
@@ -46,7 +52,8 @@ const outbox: StateCreator<Outbox> = (set, get) => {
       await sendMessage({ id, text, targets, reply_to, images, unattended });
       change(id, { state: 'sent' });
     } catch (error) {
-      change(id, { state: 'failed', reason: explain(error) });
+      const status = error instanceof ApiError ? error.status : 0;
+      change(id, { state: 'failed', reason: explain(error), refused: REFUSALS.has(status) || (status === CONFLICT && reply_to !== '') });
     }
   };
 

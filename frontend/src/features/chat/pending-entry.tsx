@@ -1,5 +1,6 @@
 import { useTranslation } from 'react-i18next';
 
+import { draftKey, useDrafts } from '@/state/drafts';
 import { Button } from '@/ui/button';
 
 import css from './entry.module.css';
@@ -10,6 +11,10 @@ export function PendingEntry({ message }: { message: Outgoing }) {
   const { t } = useTranslation('chat');
   const { retry, discard } = useOutbox();
   const failed = message.state === 'failed';
+  const change = () => {
+    useDrafts.getState().add(draftKey(message.targets), message.text);
+    discard(message.id);
+  };
   return (
     <li className={css.entry} data-mine="true">
       <div className={css.said}>
@@ -19,7 +24,7 @@ export function PendingEntry({ message }: { message: Outgoing }) {
         <span>{failed ? `${t('failed')}. ${message.reason}` : t('sending')}</span>
         {failed && (
           <>
-            <Button onPress={() => void retry(message.id)}>{t('retry')}</Button>
+            {message.refused ? <Button onPress={change}>{t('edit')}</Button> : <Button onPress={() => void retry(message.id)}>{t('retry')}</Button>}
             <Button tone="quiet" onPress={() => discard(message.id)}>
               {t('discard')}
             </Button>

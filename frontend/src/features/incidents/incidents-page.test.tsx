@@ -23,7 +23,7 @@ describe('the page of problems', () => {
     await screen.findByText('The door was shut.');
     screen.getByText('While doing: Go to the box');
     screen.getByText('Ada asked: Which box?');
-    screen.getByText('The answer: the red one');
+    screen.getByText('Then somebody said: the red one');
     screen.getByText('Then: I take the red box.');
   });
 
