@@ -8,7 +8,7 @@ import { nameOf, type Candidates, type Mark } from './marks';
 import { PlaceMarks } from './place-marks';
 import type { Trails } from './use-trails';
 import type { Way as Trial } from './use-way';
-import { boxOf, boxOfThing, extentOf, roomAt, roomForLabels, roomLabel, textsOf, toScreen, type Label, type Place, type Size, type Viewport } from './viewport';
+import { boxOf, boxOfThing, extentOf, roomAt, robotLabel, roomForLabels, roomLabel, textsOf, toScreen, type Label, type Place, type Size, type Viewport } from './viewport';
 
 export interface Rover {
   name: string;
@@ -43,7 +43,6 @@ interface Props {
 
 const ROBOT_M = 0.18;
 const ROBOT_LEAST_PX = 11;
-const LABEL_BELOW_PX = 20;
 const DOT_PX = 5;
 
 /** The map as a picture; whoever cannot see it has the list. */
@@ -169,9 +168,7 @@ interface LabelsProps {
 function Labels({ things, rooms, candidates, rovers, view, size, robotPx }: LabelsProps) {
   const robots = rovers.map((rover): Label => {
     const at = toScreen(view, size, rover.pose);
-    const away = robotPx + LABEL_BELOW_PX / 2;
-    const [below, above] = [{ x: at.x, y: at.y + away }, { x: at.x, y: at.y - away }];
-    return { id: `robot ${rover.name}`, texts: rover.title ? [rover.title, rover.name] : [rover.name], at: below, others: [above] };
+    return robotLabel(rover.name, rover.title, at, robotPx);
   });
   const boxes = things.map((thing) => boxOfThing(thing, view, size));
   const around = extentOf(boxes);

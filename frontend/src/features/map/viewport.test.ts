@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 
 import { mapInfo } from '@/live/samples';
 
-import { bounds, boxOf, fit, freeIn, pan, roomAt, roomForLabels, textsOf, thingAt, toMap, toScreen, zoom } from './viewport';
+import { bounds, boxOf, fit, freeIn, pan, roomAt, robotLabel, roomForLabels, textsOf, thingAt, toMap, toScreen, zoom } from './viewport';
 
 const size = { width: 800, height: 400 };
 
@@ -93,6 +93,14 @@ describe('labels on a map', () => {
     const written = roomForLabels([robot, gateLabel], { width: 390, height: 380 }, [{ at: { x: 300, y: 226 }, radius: 6 }], [gate, area]);
     expect(written.get('gate')).toMatchObject({ x: 294, y: 326.5 }); // left of it: above, the area would seem to be called so
     expect(written.get('robot')?.y).toBe(210);
+  });
+
+  it('put the names of robots that stand close together not over each other', () => {
+    const robots = [robotLabel('David', '', { x: 200, y: 100 }, 11), robotLabel('Ruth', '', { x: 230, y: 100 }, 11)];
+    const marks = [200, 230].map((x) => ({ at: { x, y: 100 }, radius: 11 }));
+    const [first, second] = [...roomForLabels(robots, size, marks).values()];
+    expect(first?.y).toBeGreaterThan(100);
+    expect(second?.y).toBeLessThan(100);
   });
 
   it('put the name of a room where no thing is', () => {

@@ -104,6 +104,7 @@ const PARTS = [0.5, 0.35, 0.65, 0.2, 0.8, 0.1, 0.9];
 const ROOM_FOR_NAME_M = { x: 0.7, y: 0.15 };
 const ROOM_LETTER_PX = 9.5;
 const LETTER_PX = 6.5;
+const ROBOT_LETTER_PX = 8;
 const LINE_PX = 16;
 const CLEAR_PX = 6;
 const WIDE = /[mw@%]/gi;
@@ -234,6 +235,13 @@ export function freeIn(room: MapRoom, things: readonly MapThing[], scale: number
     !things.some((one) => Math.abs(one.x - x) < one.width / 2 + half.x && Math.abs(one.y - y) < one.height / 2 + half.y);
   const whole = { x: (room.name.length * ROOM_LETTER_PX) / 2 / scale, y: LINE_PX / 2 / scale };
   return [...near.filter(free(whole)), ...near.filter(free(ROOM_FOR_NAME_M))];
+}
+
+/** The name of a robot, below or above it, or beside it where another robot's name stands. */
+export function robotLabel(name: string, title: string, { x, y }: Place, radius: number): Label {
+  const [beside, line] = [radius + (name.length * ROBOT_LETTER_PX) / 2, radius + LINE_PX / 2 + 2];
+  const others = [{ x, y: y - line }, { x: x - beside, y }, { x: x + beside, y }];
+  return { id: `robot ${name}`, texts: title ? [title, name] : [name], at: { x, y: y + line }, others, letterPx: ROBOT_LETTER_PX };
 }
 
 /** The name of a room. */
