@@ -371,18 +371,25 @@ def test_what_ran_on_beside_a_step_that_failed_during_a_pause_is_not_done_again(
     assert [step.state for step in plan.steps] == ["queued", "finished"]
 
 
-def test_pause_keeps_the_plan_and_changes_wait_for_going_on(plan: TargetPlan, engine: Engine) -> None:
+@pytest.mark.parametrize("ours", [True, False])
+def test_what_is_added_to_a_paused_plan_is_in_the_graph_of_our_engines_and_waits_elsewhere(
+    ours: bool,
+) -> None:
+    plan = TargetPlan("A", new_graph_name=lambda: "graph_0", can_end_step=lambda: ours)
+    engine = Engine(plan)
     engine.take(list(plan.append([look(), look("door")])))
     engine.report()
     assert plan.pause() == [PauseGraph("graph_0")]
     engine.graph_state = GraphState.PAUSED
     engine.report()
     assert plan.update().state == "paused"
-    assert plan.append([look("lid")]) == []
-    modify, resume = plan.start()
-    assert isinstance(modify, ModifyGraph)
+    added = plan.append([look("lid")])
+    *modified, resume = [*added, *plan.start()]
+    (modify,) = modified  # once, and over a crash only what an engine has is kept
+    assert isinstance(modify, ModifyGraph) and modify.continue_from == ""
     assert len(modify.graph.nodes) == 3
     assert resume == ResumeGraph("graph_0")
+    assert bool(added) is ours
 
 
 def test_going_on_unchanged_resumes(plan: TargetPlan, engine: Engine) -> None:

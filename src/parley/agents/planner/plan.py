@@ -133,10 +133,11 @@ class TargetPlan(PlanState):
 
     def start(self) -> list[Effect]:
         """Go on after a pause, or try a failed step again."""
+        changes: list[Effect] = []
         if self.held and self.failed is not None:
-            effects = self._replace_failed([self.failed.call])
+            changes = self._replace_failed([self.failed.call])
             if self.run != "paused":  # else it stood still already when the step failed
-                return effects
+                return changes
         if not self.pending:
             return [Say("There is nothing left to go on with.")]
         self.pause_wanted = False
@@ -145,7 +146,7 @@ class TargetPlan(PlanState):
         if self.run not in GOING:
             return []
         # A pause that somebody else caused may not have been reported yet; resuming what runs does nothing.
-        changes = self._sync.modify() if self.dirty else []
+        changes += self._sync.modify() if self.dirty else []
         return [*changes, ResumeGraph(self.graph_name)]
 
     def clear(self) -> list[Effect]:

@@ -44,10 +44,19 @@ class Sync:
             return []
         if not self._plan.graph_name:
             return [] if self._plan.pause_wanted else self.start()
-        if self._plan.run in ("starting", "continuing", "paused") or self._plan.pause_wanted:
+        if self._plan.run in ("starting", "continuing") or (self._stands and not self._takes_standing):
             self._plan.dirty = True
             return []
         return self.go_on() if self._plan.run == "halted" else self.modify()
+
+    @property
+    def _stands(self) -> bool:
+        return self._plan.run == "paused" or self._plan.pause_wanted
+
+    @property
+    def _takes_standing(self) -> bool:
+        """Whether the engine changes a graph that stands still, and so keeps what is added over a crash."""
+        return self._plan.run in ("running", "paused") and self._plan.can_end_step()
 
     def start(self) -> list[Effect]:
         """Begin a new graph with what is still to be done."""
