@@ -52,6 +52,16 @@ def test_what_only_finds_something_out_is_done_again_so_that_the_next_step_is_ca
     assert not steps[1].call.input_parameters["text"].has_data
 
 
+def test_what_was_found_is_found_anew_also_where_a_changed_plan_held_it_already() -> None:
+    left = was(["FINISHED", "RUNNING", "UNINITIALIZED"], {"JoinText_0": {"text": "a-b"}})
+    first, second, *rest = left.graph.nodes
+    filled = {name: value.with_value("a-b") for name, value in second.input_parameters.items()}
+    changed = (first, second._replace(input_parameters=filled), *rest)
+    steps = restored_steps(replace(left, graph=replace(left.graph, nodes=changed)), {"JoinText"})
+    assert [step.call.name for step in steps] == ["JoinText", "SameText", "WaitFor"]
+    assert not steps[1].call.input_parameters["text"].has_data
+
+
 def test_what_is_no_sequence_is_named_and_not_gone_on_with() -> None:
     left = was(["RUNNING", "UNINITIALIZED", "UNINITIALIZED"], {})
     first, *rest = left.graph.nodes

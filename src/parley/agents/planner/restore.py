@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Container, Sequence
+from dataclasses import replace
 
-from parley.agents.planner.steps import Step, When, handed_over, previous, with_givers
+from parley.agents.planner.steps import Step, When, handed_over, previous, with_givers, without_given
 from parley.engine.interrupted import Interrupted, flow_of, order_of
 from parley.messages.chat import ActionCall
 from parley.sentences import sentence
@@ -27,18 +28,18 @@ def restored_steps(was: Interrupted, finding: Container[str] = ()) -> list[Step]
     """
     if not was.is_sequence:
         return []
-    done = [
-        Step(
-            _call(node),
-            state="finished",
-            outputs={} if node.name in finding else dict(was.outputs.get(node.full_name, {})),
-            order=order_of(node),
-        )
-        for node in was.graph.nodes
-        if node.state is NodeState.FINISHED
-    ]
+    done: list[Step] = []
+    given: list[Step] = []
+    for node in was.graph.nodes:
+        if node.state is NodeState.FINISHED:
+            step = Step(_call(node), state="finished", order=order_of(node))
+            given.append(replace(step, outputs=dict(was.outputs.get(node.full_name, {}))))
+            done.append(step if node.name in finding else given[-1])
     steps: list[Step] = []
-    calls = with_givers([_call(node) for node in was.remaining], done)
+    left = [Step(_call(node)) for node in was.remaining]
+    # A plan that was changed meanwhile was told to the engine with what its steps had found written in.
+    asked = without_given([*given, *left], [step.call for step in (*given, *left)])[len(given) :]
+    calls = with_givers(asked, done)
     orders = [order_of(node) for node in was.remaining]
     for call, order in zip(calls, [*orders[: len(calls) - len(orders)], *orders], strict=True):
         steps.append(Step(call, fed=handed_over(call, steps[-1:]), order=order))
