@@ -58,6 +58,18 @@ async def test_messages_arrive_whole_once_and_in_the_order_they_were_sent(networ
     assert heard == sent
 
 
+@pytest.mark.parametrize("repeats", [False, True])
+async def test_what_is_said_twice_is_heard_twice(network: Network, *, repeats: bool) -> None:
+    topic, heard = Topic("contract/twice", String, PLAIN.ros_type, QoS(depth=100, repeats=repeats)), []
+    taken = await network.there.subscribe(topic, lambda message: heard.append(message.data))
+    sender = network.here.publisher(topic)
+    said = ["yes", "yes", "no", "yes", "end"]
+    for text in said:
+        sender.publish(String(text))
+    await until(lambda: "end" in heard)
+    assert (heard, taken.dropped) == (said, 0)
+
+
 async def test_every_subscriber_gets_every_message(network: Network) -> None:
     heard: tuple[list[String], list[String], list[String]] = ([], [], [])
     for inbox in heard:

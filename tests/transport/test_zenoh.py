@@ -30,6 +30,7 @@ from tests.transport.peer import ECHO, HELLO, STOP, TALK
 BIG = "x" * 200_000
 KEPT = Topic("kept", String, "std_msgs/msg/String", QoS(kept=6))
 """Of a topic of which as much is kept."""
+REPEATS = Topic("repeats", String, "std_msgs/msg/String", QoS(repeats=True))
 Role = Literal["peer", "client", "router"]
 
 
@@ -291,27 +292,30 @@ async def test_messages_that_were_lost_on_the_way_are_counted(at: str, stranger:
         assert subscription.dropped == 3 + 1
 
 
-async def test_what_is_said_again_until_it_is_taken_is_lost_once_at_most(at: str) -> None:
+@pytest.mark.parametrize(("topic", "lost"), [(REPEATS, 1), (TALK, 16 + 3)])
+async def test_equal_words_are_one_loss_where_they_are_said_until_they_are_taken_and_else_many(
+    at: str, topic: Topic[String], lost: int
+) -> None:
     heard: list[str] = []
     async with AsyncExitStack() as ends:
         async with listening(at, role="router"):
             one = await ends.enter_async_context(connecting(at, role="client"))
             other = await ends.enter_async_context(connecting(at, role="client"))
-            taken = await other.subscribe(TALK, lambda message: heard.append(message.data))
-            await until(lambda: hears(one, TALK))
-            talker = one.publisher(TALK)
+            taken = await other.subscribe(topic, lambda message: heard.append(message.data))
+            await until(lambda: hears(one, topic))
+            talker = one.publisher(topic)
             talker.publish(String("before"))
             await until(lambda: heard)
-        await until(lambda: not hears(one, TALK))
+        await until(lambda: not hears(one, topic))
         for text in ("first", "second", "gone", *["first", "second"] * 8):
             talker.publish(String(text))
         async with listening(at, role="router"):
-            await until(lambda: hears(one, TALK))
+            await until(lambda: hears(one, topic))
             for text in ("first", "second", "first", "after"):
                 talker.publish(String(text))
             await until(lambda: heard[-1:] == ["after"])
     assert heard == ["before", "first", "second", "first", "after"]
-    assert taken.dropped == 1, "what nobody said again"
+    assert taken.dropped == lost
 
 
 async def test_a_call_that_is_no_call_is_refused_and_the_next_is_answered(

@@ -30,6 +30,8 @@ class QoS:
     """Nothing is dropped, whatever depth a subscriber asks for (ROS: keep all)."""
     kept: int = 0
     """How many each sender keeps for those who were cut off and want to hear late what they missed."""
+    repeats: bool = False
+    """Its messages bear ids and are said again until they are read: an equal one is the same."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,16 +55,17 @@ class Service(Generic[Req, Res]):
 
 
 def _string(
-    name: str, *, latched: bool = False, depth: int = 100, keep_all: bool = False, kept: int = 0
-) -> Topic[ros.String]:
-    qos = QoS(latched=latched, depth=depth, keep_all=keep_all, kept=kept)
+    name: str, *, latched: bool = False, depth: int = 100, keep_all: bool = False, kept: int = 0,
+    repeats: bool = False,
+) -> Topic[ros.String]:  # fmt: skip
+    qos = QoS(latched=latched, depth=depth, keep_all=keep_all, kept=kept, repeats=repeats)
     return Topic(name, ros.String, "std_msgs/msg/String", qos)
 
 
 # What may carry pictures is kept less of.
-CHAT_INPUT = _string("chat_interface_input", kept=20)
+CHAT_INPUT = _string("chat_interface_input", kept=20, repeats=True)
 CHAT_FEEDBACK = _string("chat_interface_feedback", kept=100)
-CHAT_ACTION = _string("chat_action", kept=100)
+CHAT_ACTION = _string("chat_action", kept=100, repeats=True)
 UMRF_CORRECTION = _string("umrf_correction", kept=100)
 ERROR_HANDLING = _string("error_handling_message")
 ADD_TO_MEMORY = _string("add_to_memory", kept=20)
@@ -89,10 +92,10 @@ GRAPH_FEEDBACK = Topic(
 ACTOR_STATUS = _string("/parley/actor_status")
 GRAPH_EVENTS = _string("/parley/graph_events", depth=10_000, kept=1000)
 PLAN = _string("/parley/plan", kept=100)
-PLAN_DECISION = _string("/parley/plan_decision", kept=100)
+PLAN_DECISION = _string("/parley/plan_decision", kept=100, repeats=True)
 RULING = _string("/parley/ruling", depth=1000)
 STEP = _string("/parley/step")
-STOP = _string("/parley/stop", keep_all=True, kept=100)
+STOP = _string("/parley/stop", keep_all=True, kept=100, repeats=True)
 STOP_REPORT = _string("/parley/stop_report", kept=100)
 REJECTION = _string("/parley/rejection", kept=100)
 SYNC = _string("/parley/sync")

@@ -29,7 +29,8 @@ log = structlog.get_logger(__name__)
 
 WORDS_KNOWN: Final = 64
 LONGEST_WORDS: Final = 4096
-"""Bytes. So many of its newest messages of no more than that a publisher knows when they are said again."""
+"""Bytes. So many of its newest messages of no more than that a publisher knows when they are said again,
+of topics on which that happens."""
 SENDERS_KNOWN: Final = 256
 """Of how many publishers a subscription knows what number comes next; of more the oldest are forgotten."""
 
@@ -103,7 +104,7 @@ class ZenohPublisher(Generic[M]):
 
     def _number(self, data: bytes) -> int:
         """What is said again until somebody takes it keeps its number, so that it is no loss each time."""
-        if len(data) > LONGEST_WORDS:
+        if not self._topic.qos.repeats or len(data) > LONGEST_WORDS:
             return next(self._numbers)
         key = hash(data)
         number = self._said[key] = self._said.get(key) or next(self._numbers)
