@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 from parley.cli import command_line
 from parley.cli.robot import EMPTY_FLOOR
 from parley.clock import WallClock
-from parley.config import NetworkSettings, SystemConfig
+from parley.config import NetworkSettings, SystemConfig, UserSettings
 from parley.demos.observer import Observer
 from parley.errors import ConfigError, UnavailableError
 from parley.messages import topics
@@ -162,6 +162,24 @@ async def test_the_doctor_says_who_is_there_which_address_is_silent_and_whose_cl
     assert silent in found[1].text
     assert "robots: A; who plans: there" in found[2].text
     assert "-3600 s" in found[3].text, found[3].text
+
+
+async def test_the_doctor_says_who_is_not_let_in_and_so_does_a_client_that_begins(tmp_path: Path) -> None:
+    at = f"tcp/127.0.0.1:{free_port()}"
+    for file, text in {"users": "desk:right\n", "right": "right", "wrong": "wrong"}.items():
+        (tmp_path / file).write_text(text, encoding="utf-8")
+    door = NetworkSettings(listen=(at,), interface="", users=tmp_path / "users")
+    async with transport_of(SystemConfig(network=door)):
+        for password, state in (("right", "ok"), ("wrong", "wrong"), ("", "wrong")):
+            user = UserSettings(name="desk", password_file=tmp_path / password) if password else None
+            inside = NetworkSettings(connect=(at,), interface="", user=user)
+            found = await asyncio.to_thread(list, examine_network(inside))
+            assert (found[0].state, at in found[0].text) == (state, True), password
+            assert ("`users`" in found[0].remedy) == (state == "wrong")
+        client = inside.model_copy(update={"role": "client"})
+        with pytest.raises(UnavailableError, match=f"nobody at {at} answers and lets this in; parley doctor"):
+            async with transport_of(SystemConfig(network=client)):
+                pass
 
 
 def test_the_doctor_says_whether_others_can_be_looked_for(monkeypatch: pytest.MonkeyPatch) -> None:

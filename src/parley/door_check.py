@@ -17,8 +17,8 @@ CONNECTS_WITHIN_S: Final = 2.0
 REFUSES_WITHIN_S: Final = 0.5
 """Who does not take our certificate says so after its own was taken."""
 NOT_OURS: Final = (
-    "Somebody listens there and does not let this in. Look whether it is a router or peer of ours, has the "
-    "same version and the same tls, and takes this name and password."
+    "Look whether it is a router or peer of ours, of the same version and with the same tls, and whether its "
+    "`users` have this name and password: without `user` here it may ask for one."
 )
 _ABSENT: Final = "Start it there, or mend the address, or let it through the firewall."
 _OWN: Final = (

@@ -12,7 +12,7 @@ from typing import Final
 from parley.clock import WallClock
 from parley.config import NetworkSettings, SystemConfig
 from parley.door_check import NOT_OURS, examine_door
-from parley.errors import InvalidMessageError, MissingExtraError, ParleyError
+from parley.errors import InvalidMessageError, MissingExtraError, ParleyError, UnavailableError
 from parley.findings import Finding
 from parley.messages import topics
 from parley.messages.ros import String
@@ -54,7 +54,7 @@ def examine_network(network: NetworkSettings | None) -> Iterable[Finding]:
     except ParleyError as error:
         yield Finding("network", "wrong", str(error), "See ROS 2 above.")
         return
-    doors = [examine_door(address, network) for address in network.connect]
+    doors = [_entered(examine_door(address, network), address, network) for address in network.connect]
     yield from doors
     if network.role == "client" and doors and all(door.state == "wrong" for door in doors):
         return  # there is no other way in
@@ -63,6 +63,25 @@ def examine_network(network: NetworkSettings | None) -> Iterable[Finding]:
     except ParleyError as error:
         mend = NOT_OURS if network.ros2 is None else "See ROS 2 above."
         yield Finding("network", "wrong", str(error), mend)
+
+
+def _entered(door: Finding, address: str, network: NetworkSettings) -> Finding:
+    """Whether one gets in there: a peer that is not let in tries for ever, and nobody says so."""
+    if door.state != "ok" or network.ros2 is not None or network.rosbridge is not None:
+        return door
+    way = {"role": "client", "connect": (address,), "listen": None, "interface": ""}
+    transport = transport_of(SystemConfig(network=network.model_copy(update=way)), node="parley_doctor")
+    try:
+        asyncio.run(_open(transport))
+    except UnavailableError:
+        who = f"the user {network.user.name!r}" if network.user is not None else "this"
+        return Finding("network", "wrong", f"{address} answers, and does not let {who} in", NOT_OURS)
+    return door
+
+
+async def _open(transport: Transport) -> None:
+    async with transport:
+        pass
 
 
 def _domain(domain: int) -> Iterable[Finding]:

@@ -20,9 +20,13 @@ GIVE_UP_MS: Final = 2000
 """How long one who takes nothing may hold up what is sent to others; then the link to it is closed."""
 
 
-def reason(error: zenoh.ZError) -> str:
-    """What the library says, without where in its source it says so."""
-    return re.sub(r"\s+at /\S+\.rs:\d+\.?", "", str(error))
+def reason(error: zenoh.ZError, network: NetworkSettings) -> str:
+    """What the library says, without where in its source it says so; of a closed door it says nothing."""
+    said = re.sub(r"\s+at /\S+\.rs:\d+\.?", "", str(error))
+    if "Unable to connect" not in said:
+        return said
+    where = " or ".join(network.connect)
+    return f"nobody at {where} answers and lets this in; parley doctor --config FILE says which it is"
 
 
 def config(network: NetworkSettings) -> zenoh.Config:

@@ -88,7 +88,9 @@ class ZenohTransport(RemoteTransport[Graph]):
             await self.ask(self._begin)
         except zenoh.ZError as error:
             self._abandon()
-            raise UnavailableError(f"the network cannot be reached: {reason(error)}") from error
+            raise UnavailableError(
+                f"the network cannot be reached: {reason(error, self._network)}"
+            ) from error
         except BaseException:
             self._abandon()
             raise
