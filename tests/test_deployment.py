@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import os
+import signal
+import sys
+from contextlib import AsyncExitStack
 from pathlib import Path
 
 import pytest
@@ -14,7 +17,10 @@ from parley.cli.on_loop import PULSE, on_loop
 from parley.config import NetworkSettings, SystemConfig
 from parley.deployment import Deployment
 from parley.errors import ConfigError, FileFormatError
+from parley.network import transport_of
 from tests.test_examples import EXAMPLES, invoke
+from tests.transport.backends import free_port, until
+from tests.transport.peer import TALK
 
 FILES = sorted((EXAMPLES / "deployments").glob("*.yaml"))
 SEVERAL = """
@@ -59,7 +65,24 @@ def test_each_machine_gets_its_parts_and_its_network(tmp_path: Path) -> None:
     read.write_text(deployment.settings_text("desk"), encoding="utf-8")
     settings = SystemConfig.load(read)
     assert settings.network == NetworkSettings(connect=("tcp/192.168.1.5:7447",), interface="")
+    assert deployment.settings_of("desk", first=False) == settings
     assert (settings.approval, settings.rules_path) == ("ask_first", tmp_path / "rules.yaml")
+
+
+async def test_the_parts_of_a_machine_and_who_looks_after_them_share_one_port(tmp_path: Path) -> None:
+    text = SEVERAL.replace("7447", str(free_port()))
+    deployment = load(tmp_path, text.replace("192.168.1.5", "127.0.0.1"))
+    async with AsyncExitStack() as ends:
+        away = await ends.enter_async_context(transport_of(deployment.settings_of("desk")))
+        for first in (True, False, False):
+            transport = transport_of(deployment.settings_of("yard", first=first))
+            await ends.enter_async_context(transport)
+            transport.publisher(TALK)
+
+        def seen() -> int:
+            return sum(end.elsewhere and end.name == f"/{TALK.name}" for end in away.endpoints())
+
+        await until(lambda: seen() == 3)
 
 
 def test_this_machine_is_the_only_one_or_the_one_that_is_named(tmp_path: Path) -> None:
@@ -141,6 +164,53 @@ async def test_a_part_that_hangs_is_ended_as_one_that_ends(
     monkeypatch.setattr(up, "HANGS_AFTER_S", 0.2)
     async with asyncio.timeout(30):
         assert await up._until_it_ends([]) == ended
+
+
+LOOKS_AFTER = """
+import asyncio, sys
+from parley.cli import up
+sys.executable, up.HANGS_AFTER_S, up.BEAT_S = sys.argv[1], 0.6, 0.2
+print(asyncio.run(up._until_it_ends([])))
+"""
+BEATS = """#!{}
+import os, time
+for _ in range(40):
+    os.write(int(os.environ['PARLEY_PULSE']), b'.')
+    time.sleep(0.1)
+"""
+
+
+async def test_a_part_is_not_ended_for_a_time_in_which_we_hung_ourselves(tmp_path: Path) -> None:
+    part = tmp_path / "part"
+    part.write_text(BEATS.format(sys.executable), encoding="utf-8")
+    part.chmod(0o755)
+    command = [sys.executable, "-c", LOOKS_AFTER, str(part)]
+    looking = await asyncio.create_subprocess_exec(*command, stdout=asyncio.subprocess.PIPE)
+    await asyncio.sleep(2.0)
+    looking.send_signal(signal.SIGSTOP)
+    await asyncio.sleep(1.0)
+    looking.send_signal(signal.SIGCONT)
+    assert (await looking.communicate())[0] == b"0\n"
+
+
+def test_a_part_ends_in_order_when_nobody_looks_after_it_any_more(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    ours, its = os.pipe()
+    os.close(ours)
+    monkeypatch.setenv(PULSE, str(its))
+    closed: list[str] = []
+
+    async def work() -> None:
+        try:
+            await asyncio.sleep(30)
+        finally:
+            closed.append("in order")
+
+    with pytest.raises(SystemExit, match="143"):
+        on_loop(work())
+    os.close(its)
+    assert closed == ["in order"]
 
 
 def test_a_command_gives_signs_of_life_to_whoever_started_it(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -286,9 +286,13 @@ class NetworkSettings(BaseModel):
 
     @property
     def beside(self) -> NetworkSettings:
-        """Those of one more end in the same process: it reaches whom the first one reaches, and that one."""
-        ours = [address.replace("0.0.0.0", "127.0.0.1") for address in self.listen or ()]
-        return self.model_copy(update={"listen": None, "connect": (*self.connect, *ours)})
+        """Those of one more end on the same machine: with a port of its own, and by way of the first one."""
+        ours = [address for address in self.listen or () if not address.endswith(":0")]
+        if self.role != "peer" or not ours:
+            return self
+        near = (address.replace("0.0.0.0", "127.0.0.1").replace("[::]", "[::1]") for address in ours)
+        own = (f"{address.rpartition(':')[0]}:0" for address in self.listen or ())
+        return self.model_copy(update={"listen": tuple(own), "connect": (*self.connect, *near)})
 
     @property
     def as_router(self) -> NetworkSettings:

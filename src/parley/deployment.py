@@ -146,14 +146,14 @@ class Deployment(BaseModel, TextFile):
             raise ConfigError(f"{found!r} {which} in the file: say --machine {' or '.join(names)}")
         return found
 
-    def settings_of(self, machine: str) -> SystemConfig:
-        """The settings of the parts of one machine."""
+    def settings_of(self, machine: str, *, first: bool = True) -> SystemConfig:
+        """The settings of the parts of one machine; the `first` one listens where others come in."""
         network = self.machines.get(machine, self.settings.network or NetworkSettings())
-        return self.settings.model_copy(update={"network": network})
+        return self.settings.model_copy(update={"network": network if first else network.beside})
 
-    def settings_text(self, machine: str) -> str:
+    def settings_text(self, machine: str, *, first: bool = True) -> str:
         """The same as a file that each of them reads."""
-        settings = self.settings_of(machine)
+        settings = self.settings_of(machine, first=first)
         told: dict[str, Any] = settings.model_dump(mode="json", exclude_unset=True)
         network = settings.network or NetworkSettings()
         return yaml.safe_dump(told | {"network": network.model_dump(mode="json", exclude_unset=True)})

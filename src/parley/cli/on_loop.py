@@ -7,7 +7,7 @@ import os
 import signal
 import threading
 from collections.abc import Callable, Coroutine, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from types import FrameType
 from typing import Any, Final, TypeVar
 
@@ -80,12 +80,14 @@ class _Ending:
 
 
 async def _beat() -> None:
-    """Give signs of life to whoever wants them, and end with them."""
-    pulse = os.environ.get(PULSE, "")
-    with suppress(OSError):  # nobody wants them any more
+    """Give signs of life to whoever wants them, and end in order where they are not there any more."""
+    pulse = os.environ.pop(PULSE, "")  # whom this one starts, that pipe does not reach
+    try:
         while pulse.isdigit():
             os.write(int(pulse), b".")
             await asyncio.sleep(BEAT_S)
+    except BrokenPipeError:  # started again, they would find every place taken by those they lost
+        os.kill(os.getpid(), signal.SIGTERM)
 
 
 @contextmanager

@@ -13,7 +13,7 @@ from typing import Annotated, Final
 import typer
 
 from parley.agents.notices import Notifier
-from parley.cli.on_loop import PULSE, on_loop
+from parley.cli.on_loop import BEAT_S, PULSE, on_loop
 from parley.cli.output import quiet_logs
 from parley.clock import Clock, WallClock
 from parley.demos.catalogue import DEMOS
@@ -79,18 +79,20 @@ def _lacking(deployment: Deployment, machine: str) -> Iterator[tuple[str, str]]:
 
 async def _run(deployment: Deployment, machine: str, parts: Sequence[PartToRun], verbose: bool) -> None:
     with tempfile.TemporaryDirectory(prefix="parley-") as folder:
-        settings = Path(folder) / "parley.yaml"
-        settings.write_text(deployment.settings_text(machine), encoding="utf-8")
-        config = deployment.settings_of(machine)
+        files = [Path(folder) / name for name in ("first.yaml", "parley.yaml")]
+        for file in files:
+            text = deployment.settings_text(machine, first=file is files[0])
+            file.write_text(text, encoding="utf-8")
+        config = deployment.settings_of(machine, first=False)
         transport = transport_of(config, node="parley_up")
         notifier = Notifier(transport)
         notifier.speaks = config.speaks
-        shared = ["--config", str(settings), *(["--verbose"] if verbose else [])]
+        shared = ["--verbose"] if verbose else []
         try:
             async with transport, notifier, asyncio.TaskGroup() as group:
                 for part in parts:
-                    data = deployment.data / part.name.replace(" ", "-")
-                    words = [*part.arguments, *shared, "--data", str(data)]
+                    data, file = deployment.data / part.name.replace(" ", "-"), files[part is not parts[0]]
+                    words = [*part.arguments, *shared, "--config", str(file), "--data", str(data)]
                     group.create_task(_look_after(part.name, words, notifier, WallClock()), name=part.name)
         except* ConfigError as wrong:
             raise wrong.exceptions[0] from None
@@ -141,20 +143,22 @@ async def _until_it_ends(words: Sequence[str]) -> int | None:
 
     loop.add_reader(ours, heard)
     ending = asyncio.ensure_future(process.wait())
-    within_s = BEGINS_WITHIN_S
+    within_s, silent_s = BEGINS_WITHIN_S, 0.0
     try:
-        while True:
+        while silent_s < within_s:  # as looks taken: a time in which we hung ourselves says nothing of it
+            look_s = min(BEAT_S, within_s)
             beating = asyncio.ensure_future(life.wait())
-            await asyncio.wait((ending, beating), timeout=within_s, return_when=asyncio.FIRST_COMPLETED)
+            await asyncio.wait((ending, beating), timeout=look_s, return_when=asyncio.FIRST_COMPLETED)
             beating.cancel()
             if ending.done():
                 return ending.result()
-            if not life.is_set():
-                process.kill()
-                await ending
-                return None
-            life.clear()
-            within_s = HANGS_AFTER_S
+            silent_s += look_s
+            if life.is_set():
+                life.clear()
+                within_s, silent_s = HANGS_AFTER_S, 0.0
+        process.kill()
+        await ending
+        return None
     finally:
         loop.remove_reader(ours)
         os.close(ours)
