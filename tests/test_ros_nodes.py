@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
+import structlog
 
 from parley.cli.ros_nodes import NAMES, Parameters
 from parley.errors import ConfigError
@@ -26,6 +27,20 @@ def test_parameters_become_settings_and_those_of_ros_are_passed_over(tmp_path: P
     assert settings.network.ros2 is not None
     assert settings.network.ros2.arguments == ("--ros-args", "-r", "__ns:=/ward")
     assert (settings.network.domain, settings.network.rosbridge) == (0, None)
+
+
+def test_who_asks_for_simulated_time_is_told_that_there_is_none() -> None:
+    with structlog.testing.capture_logs() as logged:
+        Parameters.told({"use_sim_time": True})
+    assert [line["log_level"] for line in logged] == ["warning"]
+
+
+@pytest.mark.parametrize("file", sorted((PACKAGE / "launch").glob("*.py")), ids=lambda file: str(file.stem))
+def test_every_argument_of_a_launch_file_is_described(file: Path) -> None:
+    described = file.read_text(encoding="utf-8")
+    docs = (PACKAGE.parents[1] / "docs" / "ros-nodes.md").read_text(encoding="utf-8")
+    names = re.findall(r'^    "(\w+)": \(', described, re.MULTILINE)
+    assert [name for name in names if f"`{name}" not in docs] == []
 
 
 @pytest.mark.parametrize(("name", "value"), [("worlds", "warehouse"), ("speed", -1.0)])

@@ -93,7 +93,8 @@ class _Look:
         async with transport:
             for name, kind, qos in topics.told():
                 if name in listened:
-                    await transport.subscribe(topics.topic(name, kind, qos), self._hears(name))
+                    for topic in topics.heard(name, kind, qos):
+                        await transport.subscribe(topic, self._hears(name))
             stop = transport.on_endpoints_changed(lambda: self._look(transport))
             self._look(transport)
             with suppress(TimeoutError):

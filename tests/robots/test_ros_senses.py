@@ -123,3 +123,21 @@ async def test_the_camera_is_listened_to_while_somebody_waits(camera: Camera) ->
     await camera.senses.rest()
     await camera.sees(1)
     assert (await wanted).detections
+
+
+async def test_a_button_is_heard_whether_its_driver_latches_what_it_says_or_not() -> None:
+    topics = RosTopics(emergency="e_stop")
+    asked = {
+        name: [topic.qos.latched for topic in topics.heard(name, kind, qos)]
+        for name, kind, qos in topics.told()
+    }
+    assert sorted(asked.pop("e_stop")) == [False, True]
+    assert {len(ways) for ways in asked.values()} == {1}
+    async with LocalTransport() as transport:
+        senses = Senses(topics, SimClock().now_s, SimClock().now_s, SimClock().timeout)
+        await senses.listen(transport)
+        button = transport.publisher(topics.topic("e_stop", ros_robot.Bool))
+        for pressed in (True, False):
+            button.publish(ros_robot.Bool(pressed))
+            await settled()
+            assert senses.emergency is pressed

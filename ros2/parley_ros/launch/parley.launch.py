@@ -12,6 +12,8 @@ from launch_ros.actions import Node
 ARGUMENTS = {
     "namespace": ("", "before the relative names of all nodes"),
     "config": ("", "file with Parley's settings"),
+    "log_level": ("info", "of what is logged: debug, info, warn, error, fatal"),
+    "use_respawn": ("false", "whether what crashes is started again, after 2 s"),
     "params_file": ("", "file with parameters of the nodes"),
     "data": ("", "folder for memories, rules and records; empty: kept only while the nodes run"),
     "language": ("builtin", "what understands people: builtin, or provider:model"),
@@ -34,6 +36,8 @@ def start(context: LaunchContext) -> list[LaunchDescriptionEntity]:
         return Node(
             package="parley_ros", executable=executable, namespace=told["namespace"], output="screen",
             parameters=[shared, *files, parameters],
+            arguments=["--ros-args", "--log-level", told["log_level"]],
+            respawn=told["use_respawn"].lower() == "true", respawn_delay=2.0,
         )  # fmt: skip
 
     found = [part("nodes", without=told["without"])]

@@ -7,6 +7,7 @@ from collections.abc import Coroutine, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+import structlog
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from parley.cli.engine import system_of_robots
@@ -28,6 +29,8 @@ __all__ = ["NAMES", "Parameters", "main"]
 
 NAMES: Final = (*NODES, "nodes", "engine", "web")
 """What can be started; `nodes` is all of `NODES` in one process."""
+log = structlog.get_logger(__name__)
+
 _OF_ROS: Final = ("use_sim_time", "qos_overrides.", "start_type_description_service")
 
 
@@ -51,7 +54,7 @@ class Parameters(BaseModel):
     world: str = ""
     """`engine`: where the robot is; without `robot_class` it is simulated there."""
     robot_class: str = ""
-    """`engine`: `MODULE:CLASS` or `FILE.py:CLASS` of a robot of your own."""
+    """`engine`: `FILE.yaml` of robots with Nav2, `MODULE:CLASS` or `FILE.py:CLASS` of your own."""
     speed: float = Field(default=1.0, gt=0)
     """`engine`: simulated seconds per second."""
     port: int = Field(default=8400, ge=0, le=65535)
@@ -69,6 +72,8 @@ class Parameters(BaseModel):
             ConfigError: One is unknown or wrong; says which.
         """
         ours = {name: value for name, value in values.items() if not name.startswith(_OF_ROS)}
+        if values.get("use_sim_time"):
+            log.warning("use_sim_time does nothing here: what is promised counts on the wall's time")
         for name in ("without", "actor_name"):
             if isinstance(told := ours.get(name), str):  # launch files have but texts
                 ours[name] = tuple(word.strip() for word in told.split(",") if word.strip())

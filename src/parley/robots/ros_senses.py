@@ -117,6 +117,12 @@ class RosTopics:
         )
         return ((name, kind, qos) for name, kind, qos in every if name)
 
+    def heard(self, name: str, kind: type[Any], qos: QoS) -> Iterator[Topic[Any]]:
+        """As what it is listened to: in ROS 2 only who latches is heard by who asks for it; buttons vary."""
+        yield self.topic(name, kind, qos)
+        if name == self.emergency:
+            yield self.topic(name, kind)
+
     @property
     def camera_type(self) -> type[Any]:
         """Of its pictures."""
@@ -193,7 +199,8 @@ class Senses:
         }
         for name, kind, qos in self._topics.told():
             if name in handlers:
-                await transport.subscribe(self._topics.topic(name, kind, qos), handlers[name])
+                for topic in self._topics.heard(name, kind, qos):
+                    await transport.subscribe(topic, handlers[name])
 
     # -- read from anywhere ------------------------------------------------------------------------------
 
