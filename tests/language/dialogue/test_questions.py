@@ -39,6 +39,7 @@ EMPTY = replace(LOOKED, label="Look: “yard”", told=("I see nothing.",), seen
 AREA = replace(LOOKED, label="Look: “Area B”")
 RUNS = (PlanStep(action=ActionCall(name="drive_to"), label="Go to “gate”", state="running"),)
 HELD = (RUNS[0].model_copy(update={"state": "paused"}),)
+BEGUN = deed("Go to “gate”", ending="running")
 GIVEN_UP = deed("Go to “gate”", ending="stopped")
 
 
@@ -78,6 +79,9 @@ def test_what_is_about_the_world_is_left_to_others(sentence: str) -> None:
         ("how long will that take?", Dialogue("running", RUNS, left_s=1.2), "About 1 second more"),
         ("why are you going there?", Dialogue("running", RUNS, orders=(ORDER,)), "Because Kim asked me"),
         ("why did you stop?", Dialogue("paused", RUNS, stopped=Stop("whoa", "Kim", 1)), "Kim told me to"),
+        ("why did you stop?", Dialogue("paused", RUNS), "Say “carry on” and I go to the gate"),
+        ("why are you waiting?", Dialogue("paused", HELD, deeds=(GIVEN_UP,)), "Say “carry on” and I go to"),
+        ("what did you do?", Dialogue("running", RUNS, deeds=(BEGUN, BEGUN)), "begun to go to the gate."),
         ("why not?", Dialogue(refused="Ada must not go there."), "Ada must not go there"),
         ("are you there yet?", Dialogue("running", RUNS), "Not yet"),
         ("are you there yet?", Dialogue(deeds=(deed("Go to “gate”"),)), "Yes"),

@@ -163,7 +163,7 @@ def _did(situation: Situation, about: str) -> str:
     parts = [deed_words(deed) for deed in begun if deed.ending != "running"]
     more = f"{counted(len(parts) - _MOST, 'other thing')} before that; " if len(parts) > _MOST else ""
     done = f"I did this: {more}{'; '.join(parts[-_MOST:])}." if parts else "Nothing is done yet."
-    now = [step_words(deed.label) for deed in begun if deed.ending == "running"]
+    now = list(dict.fromkeys(step_words(deed.label) for deed in begun if deed.ending == "running"))
     return f"{done} I have begun to {listed(now)}." if now else done
 
 
@@ -234,6 +234,8 @@ def _why_stopped(situation: Situation, about: str) -> str:
         return "Because my emergency stop is on."
     if dialogue.plan == "running":
         return f"I have not stopped. {_doing(situation, about)}"
+    if dialogue.plan == "paused" and _steps_left(situation):
+        return _doing(situation, about)  # a button was pressed, or it was told before it was started anew
     return f"I am done. {_did(situation, about)}"
 
 
