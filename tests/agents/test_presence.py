@@ -7,7 +7,8 @@ import pytest
 from parley.agents.presence import LOST_AFTER_S, STARVED_AFTER_S, Presence, linked_to
 from parley.clock import WallClock
 from parley.messages import ros, topics
-from parley.messages.status import ActorStatus, StopReport
+from parley.messages.principal import Principal, person
+from parley.messages.status import ActorStatus, StopCommand, StopReport
 from parley.transport.local import LocalTransport
 
 
@@ -185,5 +186,24 @@ def test_released_robot_is_no_longer_taken_for_a_stopped_one(
     presence.on_status(ActorStatus(actor="A", state="stopped", graphs=graphs))
     for report in ("at_rest", "reset"):
         presence.on_stop_report(StopReport.model_validate({"actor": "A", "state": report}))
+    status = presence.get("A")
+    assert status is not None and status.state == then
+
+
+@pytest.mark.parametrize(
+    ("by", "targets", "then"),
+    [
+        (person(), ("A",), "idle"),
+        (person(), (), "idle"),
+        (person(), ("B",), "stopped"),
+        (None, (), "stopped"),
+    ],
+)
+def test_who_releases_a_stop_may_say_at_once_to_go_on(
+    clock: ManualClock, by: Principal | None, targets: tuple[str, ...], then: str
+) -> None:
+    presence = Presence(clock)
+    presence.on_status(ActorStatus(actor="A", state="stopped"))
+    presence.on_reset(StopCommand(command="reset", targets=targets, by=by))
     status = presence.get("A")
     assert status is not None and status.state == then

@@ -120,6 +120,18 @@ async def test_a_stop_comes_from_any_thread_and_is_released_by_a_person() -> Non
                 pass  # it is written behind
 
 
+async def test_who_releases_a_stop_may_say_to_go_on_in_the_same_breath() -> None:
+    async with parley(speed=1.0) as p:
+        await p.say("A", "go to the green crate")
+        for told in (False, True):  # before it has told that it was stopped, and after
+            p.stop()
+            if told:
+                async with asyncio.timeout(20):
+                    await p._listener.until(lambda: p._listener.statuses["A"].state == "stopped")
+            p.reset()
+            assert (await p.say("A", "carry on")).message == "I am going on."
+
+
 async def logged(p: Parley) -> set[tuple[str, Principal | None, str]]:
     reply = await p._opened.transport.call(GET_AUDIT, ChatRequest("{}"), timeout_s=5)
     return {(entry.effect, entry.by, entry.outcome) for entry in decode(AuditList, reply.response).entries}

@@ -10,9 +10,10 @@ from typing import Final
 from parley.clock import Clock
 from parley.gate.control import Control
 from parley.gate.stop_words import called
+from parley.gate.table import Effect, verdict
 from parley.messages import topics
 from parley.messages.plain import named_in
-from parley.messages.status import ActorStatus, StopReport
+from parley.messages.status import ActorStatus, StopCommand, StopReport
 from parley.sentences import sentence
 from parley.transport.base import Transport
 
@@ -80,10 +81,20 @@ class Presence:
 
     def on_stop_report(self, report: StopReport) -> None:
         """A stop was released: nobody is told to release it again before the next heartbeat says so."""
-        seen = self._seen.get(report.actor)
-        if report.state == "reset" and seen is not None and seen.status.state == "stopped":
+        if report.state == "reset":
+            self._released(report.actor)
+
+    def on_reset(self, command: StopCommand) -> None:
+        """A person releases stops. Whether it holds the engine says, to who goes on too early as well."""
+        if verdict(command.by, Effect.RESET) == "allow":
+            for name in command.targets or tuple(self._seen):
+                self._released(name)
+
+    def _released(self, name: str) -> None:
+        seen = self._seen.get(name)
+        if seen is not None and seen.status.state == "stopped":
             state = "paused" if "PAUSED" in seen.status.graphs.values() else "idle"
-            self._seen[report.actor] = _Seen(seen.status.model_copy(update={"state": state}), seen.at_s)
+            self._seen[name] = _Seen(seen.status.model_copy(update={"state": state}), seen.at_s)
 
     def expire(self, *, late_s: float = 0.0) -> None:
         """Forget who was silent for too long; called now and then.

@@ -420,9 +420,16 @@ class Parley:
         raise NotAllowedError(f"{who} may not {effect.value}: say by=person(..) for a person who does")
 
     def _tell(self, topic: topics.Topic[Any], message: Any) -> None:
-        """Publish from any thread."""
+        """Publish from any thread; on the loop at once, so that what is said next comes behind it."""
         assert self._loop is not None
-        self._loop.call_soon_threadsafe(self._listener.publish, topic, message)
+        try:
+            here = asyncio.get_running_loop() is self._loop
+        except RuntimeError:  # none runs in this thread
+            here = False
+        if here:
+            self._listener.publish(topic, message)
+        else:
+            self._loop.call_soon_threadsafe(self._listener.publish, topic, message)
 
     def _who(self, by: Principal | None) -> Principal:
         return self._by if by is None else by

@@ -78,7 +78,7 @@ class StopListener:
         if command.targets and not targets:
             return
         match command.command:
-            case "stop" if self._stops.get(command.id):
+            case "stop" if self._stops.get(command.id) or self._line.is_past(command.id):
                 pass  # a copy that comes late must not undo what a person has decided since
             case "stop":
                 if command.id not in self._again.values():

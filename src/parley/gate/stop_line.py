@@ -77,6 +77,8 @@ class StopLine:
         """The holds that were ended: a copy that comes late, or behind its end, holds nobody."""
         self._resets: deque[str] = deque(maxlen=100)
         """Ids of those that took effect: heard again, late, one must not release what was stopped since."""
+        self._past: deque[str] = deque(maxlen=100)
+        """Ids of emergency stops that were released."""
         self._newest: dict[str, str] = {}
         """Robot -> the id of the emergency stop in force, as far as it came to this line."""
         self._saved = self._file.save(self._latched)  # so that there is a file which can be emptied later
@@ -134,6 +136,10 @@ class StopLine:
     def in_force(self, robot: str) -> str:
         """The id of the emergency stop of that robot; empty: none, or one of an earlier process."""
         return self._newest.get(robot, "") if self.latched(robot) else ""
+
+    def is_past(self, id: str) -> bool:
+        """Whether that emergency stop was released: a copy of it that comes late is none."""
+        return id in self._past
 
     def held_by(self, robot: str) -> tuple[str, ...]:
         """The ids of the holds by which it stands still, while a message is read or until it may go on."""
@@ -251,6 +257,8 @@ class StopLine:
             if problems and not named:
                 return tuple(problems)
             self._resets.append(id)
+            past = {self.in_force(name) for name in named or self._known} - {"", *self._past}
+            self._past.extend(past)
             command = StopCommand(command="reset", targets=named, id=id, by=by)
             self._latched = self._latched.released(command.targets, self._known)
             for name in [name for name, held in self._holds.items() if _ended_by(held, command.targets)]:

@@ -578,6 +578,7 @@ class ChatInterface(Node):
                 self._halt(target)
         elif command.command == "reset":
             self._holds.on_reset()
+            self._presence.on_reset(command)
 
     def _halt(self, target: str) -> None:
         self._halts[target] = self._halts.get(target, 0) + 1
