@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -269,3 +270,15 @@ def test_what_goes_with_a_message_is_33_bytes_and_comes_back() -> None:
     assert Attachment.from_bytes(data) == attached
     assert Attachment.from_bytes(b"of no ROS") is None
     assert gid_of("x") != gid_of("y")
+
+
+def test_a_picture_is_copied_once_to_be_sent_and_once_when_it_came() -> None:
+    codec = Codec(Definitions(), ros.CompressedImage, "sensor_msgs/msg/CompressedImage")
+    picture = ros.CompressedImage(ros.Header(ros.Time(1, 2), "camera"), "jpeg", bytes(1_000_000))
+    data = bytes(codec.encode(picture))
+    for work in (lambda: codec.encode(picture), lambda: codec.decode(data)):
+        tracemalloc.start()
+        work()
+        _, most = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+        assert most < 1_500_000

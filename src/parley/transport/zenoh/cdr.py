@@ -39,25 +39,27 @@ class Codec(Generic[M]):
         self._store, self._ros_type = definitions.store, ros_type
         self._out, self._in = _converters(definitions, python_type, ros_type)
 
-    def encode(self, message: M) -> bytes:
-        """The bytes of `message`.
+    def encode(self, message: M) -> bytes | bytearray:
+        """The bytes of `message`, as they were made: a copy of a picture takes as long as all the rest.
 
         Raises:
             TypeMismatchError: A value is none that its field can carry.
         """
         try:
-            return bytes(self._store.serialize_cdr(self._out(message), self._ros_type))
+            made = self._store.serialize_cdr(self._out(message), self._ros_type).obj
         except (struct.error, OverflowError, ValueError, TypeError, AttributeError, SerdeError) as error:
             raise TypeMismatchError(f"{self._ros_type} cannot carry this message: {error}") from error
+        assert isinstance(made, bytearray)
+        return made
 
-    def decode(self, data: bytes) -> M:
+    def decode(self, data: bytes | bytearray) -> M:
         """The message in `data`.
 
         Raises:
             TypeMismatchError: These are not the bytes of such a message.
         """
         try:
-            message: M = self._in(self._store.deserialize_cdr(data, self._ros_type))
+            message: M = self._in(self._store.deserialize_cdr(memoryview(data), self._ros_type))
         except (SerdeError, struct.error, ValueError, IndexError) as error:
             raise TypeMismatchError(f"what came is no {self._ros_type}: {error}") from error
         return message

@@ -102,11 +102,11 @@ class ZenohPublisher(Generic[M]):
                 )
         self._lane.do(self._send)
 
-    def _number(self, data: bytes) -> int:
+    def _number(self, data: bytes | bytearray) -> int:
         """What is said again until somebody takes it keeps its number, so that it is no loss each time."""
         if not self._topic.qos.repeats or len(data) > LONGEST_WORDS:
             return next(self._numbers)
-        key = hash(data)
+        key = hash(bytes(data))
         number = self._said[key] = self._said.get(key) or next(self._numbers)
         return number
 

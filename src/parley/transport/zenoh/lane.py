@@ -75,12 +75,12 @@ class Outbox:
 
     def __init__(self, depth: int | None) -> None:
         self._depth = depth
-        self._waiting: deque[tuple[bytes, bytes]] = deque()
+        self._waiting: deque[tuple[bytes | bytearray, bytes]] = deque()
         self._bytes = 0
         self._lock = threading.Lock()
         self.dropped = 0
 
-    def put(self, data: bytes, attachment: bytes) -> bool:
+    def put(self, data: bytes | bytearray, attachment: bytes) -> bool:
         """Something is to be sent; whether older things had to go for it."""
         before = self.dropped
         with self._lock:
@@ -91,7 +91,7 @@ class Outbox:
                 self.dropped += 1
         return self.dropped > before
 
-    def take(self) -> tuple[bytes, bytes] | None:
+    def take(self) -> tuple[bytes | bytearray, bytes] | None:
         """What is to be sent next."""
         with self._lock:
             if not self._waiting:
