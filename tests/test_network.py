@@ -17,7 +17,7 @@ from parley.cli.robot import EMPTY_FLOOR
 from parley.clock import WallClock
 from parley.config import NetworkSettings, SystemConfig, UserSettings
 from parley.demos.observer import Observer
-from parley.errors import ConfigError, UnavailableError
+from parley.errors import ConfigError, FileFormatError, UnavailableError
 from parley.messages import topics
 from parley.messages.principal import person
 from parley.messages.ros import ChatRequest, ChatResponse
@@ -197,6 +197,24 @@ def test_the_doctor_says_whether_others_can_be_looked_for(monkeypatch: pytest.Mo
         assert found["discovery"].state == state, found["discovery"]
     assert found["domain"].text == "the settings say domain 0, and ROS_DOMAIN_ID is 7"
     assert "connect" in found["discovery"].remedy
+
+
+async def test_a_network_that_this_machine_is_not_on_is_told_at_once() -> None:
+    for interface in ("no-such-net", "203.0.113.9"):
+        network = NetworkSettings(interface=interface, listen=())
+        with pytest.raises(UnavailableError, match=f"not on {interface} now; its networks: .*lo"):
+            async with transport_of(SystemConfig(network=network)):
+                pass
+
+
+@pytest.mark.parametrize(
+    ("network", "told"),
+    [("{listen: tcp/127.0.0.1:7447}", "a list"), ("{connect: [tcp/robot]}", "a port"),
+     ("{listen: ['tcp/0.0.0.0:99999']}", "a port")],
+)  # fmt: skip
+def test_an_address_that_is_none_is_told_in_the_words_of_the_file(network: str, told: str) -> None:
+    with pytest.raises(FileFormatError, match=f"line 1: network.*{told}"):
+        SystemConfig.parse(f"network: {network}")
 
 
 async def _nothing(request: ChatRequest) -> ChatResponse:

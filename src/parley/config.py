@@ -277,6 +277,9 @@ class NetworkSettings(BaseModel):
                 raise ValueError(
                     f"{address} should begin with {begins}, as tls is {'' if self.tls else 'not '}set"
                 )
+            port = address.rpartition(":")[2]
+            if not port.isdecimal() or int(port) > 65535:
+                raise ValueError(f"{address} should end with a port, e.g. :7447")
         return self
 
     @property

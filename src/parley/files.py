@@ -163,6 +163,8 @@ def _told(problem: ErrorDetails) -> tuple[str, str]:
     """The field, and what is wrong, without what pydantic puts before a validator's own words."""
     if problem["type"] == "extra_forbidden":
         return field_path(problem["loc"]), "there is no such setting"
+    if problem["type"] == "tuple_type":
+        return field_path(problem["loc"]), "Input should be a list: [one, another]"
     return field_path(problem["loc"]), problem["msg"].removeprefix("Value error, ")
 
 

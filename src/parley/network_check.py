@@ -31,6 +31,7 @@ CONNECTS_WITHIN_S: Final = 2.0
 GROUP: Final = "224.0.0.224"
 """Where Zenoh looks for others."""
 _SAME: Final = "Look at domain, interface and tls: all parts need the same."
+_NO_INTERFACE: Final = "network.interface"  # as it begins that this machine is not on it
 _ROBOTS: Final = "parley engine"
 _PLANS: Final = "parley node agents"
 _SAME_ROS: Final = (
@@ -61,7 +62,7 @@ def examine_network(network: NetworkSettings | None) -> Iterable[Finding]:
     try:
         yield from asyncio.run(_listen(transport, network))
     except ParleyError as error:
-        mend = NOT_OURS if network.ros2 is None else "See ROS 2 above."
+        mend = "See above." if network.ros2 is not None or _NO_INTERFACE in str(error) else NOT_OURS
         yield Finding("network", "wrong", str(error), mend)
 
 

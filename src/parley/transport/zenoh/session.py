@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import json
 import re
+import socket
+from contextlib import suppress
+from ipaddress import ip_address
 from typing import Any, Final
 
 import zenoh
 
 from parley.config import NetworkSettings
+from parley.errors import UnavailableError
 from parley.files import read_text
 from parley.transport.zenoh.access import AccessFile, access_control
 
@@ -34,7 +38,9 @@ def config(network: NetworkSettings) -> zenoh.Config:
 
     Raises:
         ConfigError: A file of it cannot be read or is wrong.
+        UnavailableError: This machine does not have the network on which others are to be looked for.
     """
+    _need_interface(network.interface)
     made = zenoh.Config()
     settings: dict[str, Any] = {
         "mode": network.role,
@@ -75,3 +81,22 @@ def config(network: NetworkSettings) -> zenoh.Config:
     for name, value in settings.items():
         made.insert_json5(name, json.dumps(value))
     return made
+
+
+def _need_interface(name: str) -> None:
+    """The library only logs that it is not there, and then finds nobody."""
+    if name in ("", "auto"):
+        return
+    names = [known for _, known in socket.if_nameindex()]
+    try:
+        family = socket.AF_INET6 if ip_address(name).version == 6 else socket.AF_INET
+    except ValueError:
+        if name in names:
+            return
+    else:
+        with suppress(OSError), socket.socket(family, socket.SOCK_DGRAM) as end:
+            end.bind((name, 0))
+            return
+    raise UnavailableError(
+        f"network.interface: this machine is not on {name} now; its networks: {', '.join(names)}"
+    )
