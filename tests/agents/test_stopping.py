@@ -243,6 +243,26 @@ async def test_stop_during_a_step_that_cannot_pause_holds_back_the_next(party: C
     assert party.body.did == ["look box", "look lid"]
 
 
+async def test_what_was_stopped_while_away_and_had_ended_is_no_reason_to_ask_later(party: Crew) -> None:
+    cable, _ = party._engines["A"]
+    party.observer.say("cancel everything", "A")
+    await party.state("idle")
+    party.body.gate("box")
+    await told(party, "look", look("box"))
+    await party.doing("look box")
+    cable.cut = True
+    party.observer.publish(topics.STOP, StopCommand(by=person()))
+    await party.settled()
+    cable.cut = False
+    party.body.gate("box").set()
+    await party.state("idle")
+    await told(party, "go there", drive(1))
+    await party.state("running")
+    party.order(commands=[SystemCommand.model_validate({"clear": {}})])
+    await party.state("idle")
+    assert not proposals(party)
+
+
 async def test_try_again_after_a_failure_continues_from_the_failed_step(failed: Crew) -> None:
     failed.observer.say("try again", "A")
     await failed.hears("I am going on.")

@@ -111,7 +111,10 @@ class Commands:
         if waits is None:
             return
         calls = [*waits, *shifted(calls, len(waits))]
-        still = plan.update().state == "paused"
+        state = plan.update().state
+        still = state == "paused"
+        if calls and state == "idle" and by is not None and by.is_person:
+            self._plans.held_by.pop(plan.target, None)  # what was held has ended, and a person begins anew
         if calls:
             self._begin_for(plan.target, by)
         effects = plan.append(calls, order.words, order.id)
