@@ -199,6 +199,19 @@ def test_the_doctor_says_whether_others_can_be_looked_for(monkeypatch: pytest.Mo
     assert "connect" in found["discovery"].remedy
 
 
+@pytest.mark.parametrize(
+    ("networks", "state"), [(["no-such-net", "lo"], "ok"), (["no-such-net"], "wrong"), ([], "wrong")]
+)
+def test_one_network_without_a_way_out_is_enough(
+    monkeypatch: pytest.MonkeyPatch, networks: list[str], state: str
+) -> None:
+    monkeypatch.setattr("parley.network_check.LISTENS_S", 0.0)
+    monkeypatch.setattr("parley.network_check.LOOPBACK", ())
+    monkeypatch.setattr("socket.if_nameindex", lambda: list(enumerate(networks)))
+    found = [*examine_network(NetworkSettings(interface="auto", listen=()))]
+    assert next(item.state for item in found if item.subject == "discovery") == state
+
+
 async def test_a_network_that_this_machine_is_not_on_is_told_at_once() -> None:
     for interface in ("no-such-net", "203.0.113.9"):
         network = NetworkSettings(interface=interface, listen=())

@@ -31,6 +31,7 @@ CONNECTS_WITHIN_S: Final = 2.0
 GROUP: Final = "224.0.0.224"
 """Where Zenoh looks for others."""
 _SAME: Final = "Look at domain, interface and tls: all parts need the same."
+LOOPBACK: Final = ("lo", "lo0")
 _NO_INTERFACE: Final = "network.interface"  # as it begins that this machine is not on it
 _ROBOTS: Final = "parley engine"
 _PLANS: Final = "parley node agents"
@@ -97,8 +98,23 @@ def _multicast(interface: str) -> Iterable[Finding]:
     """Whether others can be looked for there: what is sent to all comes back to who sends it."""
     if not interface:
         return
+    names = [interface]
+    if interface == "auto":
+        names = [name for _, name in socket.if_nameindex() if name not in LOOPBACK]
+    problems = [why for name in names if (why := _deaf(name))]
+    if len(problems) == len(names):
+        text = f"others cannot be looked for on {interface}: {problems[0] if problems else 'there is none'}"
+        mend = "Name another `interface`, or `connect` to an address: not every network lets multicast pass."
+        yield Finding("discovery", "wrong", text, mend)
+    else:
+        where = "this machine alone" if interface == "127.0.0.1" else interface
+        yield Finding("discovery", "ok", f"others are looked for on {where}")
+
+
+def _deaf(name: str) -> str:
+    """Why nothing comes back from one network; empty: it does."""
     try:
-        at = _interface(interface)
+        at = _interface(name)
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as end:
             end.settimeout(CONNECTS_WITHIN_S)
             end.bind(("", 0))
@@ -107,18 +123,12 @@ def _multicast(interface: str) -> Iterable[Finding]:
             end.sendto(b"parley", (GROUP, end.getsockname()[1]))
             end.recv(16)
     except OSError as error:
-        text = f"others cannot be looked for on {interface}: {error}"
-        mend = "Name another `interface`, or `connect` to an address: not every network lets multicast pass."
-        yield Finding("discovery", "wrong", text, mend)
-    else:
-        where = "this machine alone" if interface == "127.0.0.1" else interface
-        yield Finding("discovery", "ok", f"others are looked for on {where}")
+        return str(error)
+    return ""
 
 
 def _interface(name: str) -> bytes:
     """Its address, as sockets take it."""
-    if name == "auto":
-        return socket.inet_aton("0.0.0.0")
     try:
         return socket.inet_aton(name)
     except OSError:
