@@ -15,10 +15,10 @@ import pytest
 from rich.console import Console as RichConsole
 
 from parley.messages import topics
-from parley.messages.chat import ChatInput
+from parley.messages.chat import ChatInput, ChatRead
 from parley.messages.memory import MemoryReply, StoredMemory
 from parley.messages.principal import person
-from parley.messages.ros import ChatRequest, ChatResponse
+from parley.messages.ros import ChatRequest, ChatResponse, String
 from parley.messages.status import PlanProposal
 from parley.messages.wire import encode
 from parley.terminal import TerminalClient
@@ -104,6 +104,22 @@ async def test_words_reach_the_selected_robot_and_its_answer_is_shown() -> None:
         (message,) = session.robots.inputs
         assert (message.message, message.targets, message.type) == ("go to the box", ("Ada",), "request")
         assert message.id
+
+
+async def test_words_that_nobody_reads_are_told_and_those_that_are_read_are_not(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("parley.terminal.client.READ_WITHIN_S", 0.3)
+    async with opened() as session:
+        read = session.transport.publisher(topics.CHAT_READ)
+        session.robots.answer = lambda message: read.publish(String(encode(ChatRead(id=message.id))))
+        session.type("go to the box")
+        await until(lambda: session.robots.inputs)
+        await asyncio.sleep(0.6)
+        assert "Nobody has read" not in session.shown
+        session.robots.answer = lambda message: None
+        session.type("go to the shelf")
+        await session.shows("Nobody has read that:")
 
 
 async def test_a_question_is_answered_by_number() -> None:

@@ -34,8 +34,10 @@ _SECOND_INTERRUPT_S = 2.0
 _FIRST_ROBOT_TIMEOUT_S = 10.0
 _REPLY_TIMEOUT_S = 30.0
 _QUIET_S = 0.5
+READ_WITHIN_S = 5.0
 _EVERYBODY = "all"
 _STOPPED = "Emergency stop for {robot}. To let it move again: /reset, then “carry on”."
+_UNREAD = "Nobody has read that: who plans may be away. Say it again later. /stop works all the same."
 _STOPPED_ALL = "Emergency stop for all robots. To let them move again: /reset all, then “carry on”."
 
 
@@ -78,6 +80,7 @@ class TerminalClient:
         self._link = Link(transport, self._view, self._show, self._clock)
         self._console = console(self)
         self._changed = asyncio.Event()
+        self._unread: set[asyncio.Task[None]] = set()
         self._interrupted_s = float("-inf")
         self._broken_off = False
         self._commands: dict[str, Callable[[str], None]] = {
@@ -103,6 +106,7 @@ class TerminalClient:
             await stack.enter_async_context(self._link)
             ticker = asyncio.create_task(self._tick(), name="terminal-tick")
             stack.push_async_callback(_cancel, ticker)
+            stack.callback(lambda: [task.cancel() for task in self._unread])
             await self._converse()
             self._note("Goodbye.")
         return self._broken_off
@@ -163,6 +167,10 @@ class TerminalClient:
         self._echo(message, text)
         self._link.send(message)
         self._remind(robot, message)
+        if isinstance(message, ChatInput):
+            looking = asyncio.create_task(self._look_after(message.id, replies), name="terminal-unread")
+            self._unread.add(looking)
+            looking.add_done_callback(self._unread.discard)
         self._console.refresh()
         if self._console.paced:
             await self._settle(robot, replies)
@@ -186,6 +194,15 @@ class TerminalClient:
                     )
                 ]
             )
+
+    async def _look_after(self, identity: str, replies: int) -> None:
+        """Say it if nobody reads what was said: a robot would seem to think."""
+
+        def is_read() -> bool:
+            return identity in self._link.read or self._view.replies > replies
+
+        if not await self._wait(is_read, READ_WITHIN_S):
+            self._note(_UNREAD)
 
     async def _settle(self, robot: RobotView, replies: int) -> None:
         """Wait until the robot has answered and either has nothing to do or needs the operator."""

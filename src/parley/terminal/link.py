@@ -11,8 +11,9 @@ from pydantic import BaseModel
 
 from parley.clock import Clock
 from parley.errors import InvalidMessageError
+from parley.latest import Latest
 from parley.messages import topics
-from parley.messages.chat import ChatFeedback, ChatInput, ReplyDraft
+from parley.messages.chat import ChatFeedback, ChatInput, ChatRead, ReplyDraft
 from parley.messages.memory import RETURN_ALL, GetMemory, MemoryEntry, MemoryReply
 from parley.messages.principal import person
 from parley.messages.ros import ChatRequest, String
@@ -61,6 +62,8 @@ class Link:
         self._transport, self._view, self._on_lines, self._clock = transport, view, on_lines, clock
         self._stack = contextlib.AsyncExitStack()
         self._publishers: dict[type[BaseModel], Publisher[String]] = {}
+        self.read: Latest[str, bool] = Latest()
+        """Messages that got to who reads them, by id."""
 
     async def __aenter__(self) -> Self:
         """Open the topics."""
@@ -74,6 +77,7 @@ class Link:
         await self._listen(topics.PLAN, decode_plan, view.on_plan)
         await self._listen(topics.GRAPH_EVENTS, _reader(GraphEvent), view.on_event)
         await self._listen(topics.ACTOR_STATUS, _reader(ActorStatus), self._on_status)
+        await self._listen(topics.CHAT_READ, _reader(ChatRead), self._on_read)
         await self._listen(topics.STOP_REPORT, _reader(StopReport), view.on_stop_report)
         await self._listen(topics.REJECTION, _reader(Rejection), view.on_rejection)
         return self
@@ -111,6 +115,10 @@ class Link:
 
         subscription = await self._transport.subscribe(topic, receive)
         self._stack.push_async_callback(subscription.close)
+
+    def _on_read(self, read: ChatRead) -> list[Line]:
+        self.read[read.id] = True
+        return []
 
     def _on_status(self, status: ActorStatus) -> list[Line]:
         return self._view.on_status(status, self._clock.wall_s())
