@@ -104,6 +104,16 @@ async def test_by_default_a_robot_goes_on_and_says_so_once() -> None:
         assert [said.message.split(".")[0] for said in here.said] == ["Nobody is connected any more"]
 
 
+async def test_who_would_have_to_ask_before_it_goes_home_waits_where_it_is() -> None:
+    async with ward("go_home") as here:
+        update = PlanUpdate(target="A", state="running", policy="ask_first")
+        here.robots.tell(topics.PLAN, update)
+        await settled()
+        await here.alone()
+        assert [[command.command for command in order.system_cmd] for order in here.orders] == [["stop"]]
+        assert "so I wait here" in here.said[-1].message
+
+
 async def test_nobody_says_that_a_robot_goes_on_which_is_gone() -> None:
     async with ward() as here:
         here.robots.tell(topics.ACTOR_STATUS, ActorStatus(actor="A", state="leaving"))

@@ -72,6 +72,8 @@ class UnattendedPlans(Node):
         self._choices: Latest[str, Unattended] = Latest()
         """As the newest order of each robot says."""
         self._running: set[str] = set()
+        self._asking: set[str] = set()
+        """Robots whose plans all wait for a yes, which nobody would give."""
         self._homes: Latest[str, PoseInfo] = Latest()
         """Where each robot stood when it was heard of first."""
         self._settled: set[str] = set()
@@ -118,6 +120,7 @@ class UnattendedPlans(Node):
     def _on_plan(self, told: PlanUpdate | PlanProposal) -> None:
         if isinstance(told, PlanProposal):
             return
+        (self._asking.add if told.policy == "ask_first" else self._asking.discard)(told.target)
         if told.state == "running":
             self._running.add(told.target)
         else:
@@ -128,7 +131,7 @@ class UnattendedPlans(Node):
     def _settle(self, robot: str) -> None:
         choice = self._choices.get(robot, self._choice)
         home = self._homes.get(robot)
-        if choice == "go_home" and home is None:
+        if choice == "go_home" and (home is None or robot in self._asking):
             choice = "hold"
         if choice == "hold":
             self._order(robot, "stop")
