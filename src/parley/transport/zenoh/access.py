@@ -72,7 +72,8 @@ _ROBOT: Final = Allowed(
     asks=_names(topics.GET_MEMORY),
     answers=_names(topics.GRAPH_GET),
 )  # fmt: skip
-"""An engine: it tells what becomes of plans, and gives nobody an order; its own names come on top."""
+"""An engine: it tells what becomes of plans and hands on what people say beside an answer; its own names come
+on top."""
 _AGENT: Final = Allowed(
     says=(*_SHARED, f"{_FEEDS}/{_ANY}"),
     hears=(*_SHARED, *_OF_ROBOTS),
