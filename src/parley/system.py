@@ -18,8 +18,8 @@ from parley.extras import needs
 from parley.gate.book import RuleBook
 from parley.gate.stop_line import StopLine
 from parley.language.base import Language
-from parley.language.in_use import EngineInUse
 from parley.language.llm import build_language
+from parley.language.llm.in_use import EngineInUse
 from parley.language.llm.usage import Usage
 from parley.memory.folder import held_folder
 from parley.memory.store import MemoryStore

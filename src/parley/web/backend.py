@@ -17,7 +17,7 @@ from parley.clock import Clock, WallClock
 from parley.errors import StoreError
 from parley.gate.stop_line import StopLine
 from parley.gate.stop_words import has_stop_word
-from parley.language.in_use import EngineInUse
+from parley.language.llm.in_use import EngineInUse
 from parley.messages.chat import ChatFeedback, ChatImage
 from parley.messages.map import MapView
 from parley.messages.principal import Principal, person

@@ -16,7 +16,7 @@ from starlette.types import ASGIApp
 from parley.clock import Clock, WallClock
 from parley.errors import ConfigError
 from parley.gate.stop_line import StopLine
-from parley.language.in_use import EngineInUse
+from parley.language.llm.in_use import EngineInUse
 from parley.transport.base import Transport
 from parley.web.addresses import LOCAL_NAMES, lan_addresses
 from parley.web.app import create_app

@@ -8,7 +8,8 @@ import { nameOf, type Candidates, type Mark } from './marks';
 import { PlaceMarks } from './place-marks';
 import type { Trails } from './use-trails';
 import type { Way as Trial } from './use-way';
-import { boxOf, boxOfThing, extentOf, roomAt, robotLabel, roomForLabels, roomLabel, textsOf, toScreen, type Label, type Place, type Size, type Viewport } from './viewport';
+import { robotLabel, roomForLabels, roomLabel, textsOf, type Label } from './labels';
+import { boxOf, boxOfThing, extentOf, roomAt, toScreen, type Place, type Size, type Viewport } from './viewport';
 
 export interface Rover {
   name: string;

@@ -2,7 +2,8 @@ import { describe, expect, it } from 'vitest';
 
 import { mapInfo } from '@/live/samples';
 
-import { bounds, boxOf, fit, freeIn, pan, roomAt, robotLabel, roomForLabels, textsOf, thingAt, toMap, toScreen, zoom } from './viewport';
+import { freeIn, robotLabel, roomForLabels, textsOf } from './labels';
+import { bounds, boxOf, fit, pan, roomAt, thingAt, toMap, toScreen, zoom } from './viewport';
 
 const size = { width: 800, height: 400 };
 
