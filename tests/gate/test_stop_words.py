@@ -4,7 +4,14 @@ from __future__ import annotations
 
 import pytest
 
-from parley.gate.stop_words import called, calls_to_stop, has_stop_word, is_no, only_takes_back
+from parley.gate.stop_words import (
+    called,
+    calls_to_stop,
+    has_stop_word,
+    is_no,
+    only_takes_back,
+    opens_with_no,
+)
 
 
 @pytest.mark.parametrize(
@@ -83,3 +90,12 @@ def test_a_word_of_waiting_may_only_open_a_correction(text: str, moves: bool, on
 )
 def test_a_call_is_for_those_whom_its_words_name_or_for_all(text: str, meant: tuple[str, ...]) -> None:
     assert called(text, ("Ada", "Cart 2")) == meant
+
+
+@pytest.mark.parametrize(
+    ("text", "opens"),
+    [("no! I said the other one", True), ("wait, first the desk", True), ("hold on - not that one", True),
+     ("no sugar", False), ("wait two minutes, then go", False), ("wait here, please", False)],
+)  # fmt: skip
+def test_a_message_that_opens_with_a_no_or_a_wait_holds_who_moves(text: str, opens: bool) -> None:
+    assert opens_with_no(text) is opens

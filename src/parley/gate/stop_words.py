@@ -141,12 +141,13 @@ def is_no(text: str) -> bool:
 
 
 def opens_with_no(text: str) -> bool:
-    """Whether a message is a no with more behind it ("no! I said the other one"); "no sugar" is none."""
+    """Whether a message is a no or a wait with more behind it ("wait, first the desk"); "no sugar" is not."""
     return _OPENS.match(_plain(text)) is not None
 
 
 _OPENS: Final = re.compile(
-    r"\W*(?:no+|nope|nah|ei)\b(?:\s*[,.!;:–-]+\s*\w|\s+(?:i|you|not|that|this|it|the|wait|do|don't)\b)",
+    r"\W*(?:(?:no+|nope|nah|ei)\b(?:\s*[,.!;:–-]+\s*\w|\s+(?:i|you|not|that|this|it|the|wait|do|don't)\b)|"
+    r"(?:wait|hold on|hang on|oota)\b\s*[,.!;:–-]+\s*\w)",
     re.IGNORECASE,
 )
 

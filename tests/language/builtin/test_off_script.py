@@ -12,6 +12,7 @@ from parley.language.builtin.lexicon import lexicon
 from parley.language.builtin.reply import to_chat
 from parley.language.dialogue.state import Dialogue, Order
 from parley.messages.memory import MemoryEntry
+from parley.messages.status import PlanProposal
 from parley.world.object_map import MapObject
 from tests.language.builtin.worlds import situation
 
@@ -177,3 +178,9 @@ def test_the_same_of_another_thing_is_asked_of_that_thing() -> None:
 
 def decided_shipped(said: str, **more: object) -> Decision:
     return ENGINE.decide(situation(said, objects=PLACES, catalogue=SHIPPED, **more))
+
+
+def test_an_order_to_another_robot_takes_nothing_of_what_this_one_offered() -> None:
+    offered = Dialogue(proposal=PlanProposal(id="7", target="Ada", why="It is not certain."))
+    made = decided_shipped("Bob, go to bay A", robots=("Ada", "Bob"), dialogue=offered)
+    assert isinstance(made, Do) and made.robots == ("Bob",)

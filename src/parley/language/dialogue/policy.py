@@ -280,6 +280,8 @@ def afterwards(
         lexicon: Words.
     """
     if isinstance(made, Do):
+        if {*made.robots} - {situation.robot}:
+            return made  # nothing of what this one does or offers is meant
         proposal = situation.dialogue.proposal
         if proposal is not None and proposal.why and not situation.queue:
             return Edit(Change(), made, proposal.id)  # what was only offered gives way to an order
