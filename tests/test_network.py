@@ -103,6 +103,7 @@ async def test_a_release_that_is_pressed_while_the_robot_is_out_of_reach_arrives
         await until(lambda: views["Kim"].stop.state == "at_rest")
         await router.__aexit__(None, None, None)
         await until(lambda: not any(end.elsewhere for end in page.endpoints()))
+        await until(lambda: views["Kim"].connection != "here")  # what was under way has come, or is lost
         assert backend.stopper.reset(("Kim",), by=person(), id="release") == ""
         await until(lambda: views["Kim"].stop.release == "sent")
         assert robots.stop_line.latched("Kim")
