@@ -224,6 +224,8 @@ class Link:
         if isinstance(message, StopCommand) and (message.command == "stop" or message.words):
             self._overtake(message.targets, words=True)
         self._publishers[type(message)].publish(to_string(message))
+        if isinstance(message, StopCommand) and message.command == "reset":
+            self._on_stop(message)  # it is told again to who is out of reach, also if nobody carries it now
 
     def pause(self, robot: str, graphs: Iterable[str]) -> None:
         """Let an engine pause graphs, whoever plans; that of TeMoto listens to its own misspelling."""
