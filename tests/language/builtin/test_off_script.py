@@ -63,6 +63,7 @@ def test_a_look_goes_on_with_what_is_named_behind_and_then() -> None:
         "Somebody else will do the turning circle",
         "somebody parked in bay A without a permit",
         "I can't find my gloves, can you help?",
+        "I've lost my keys, could you help me",
         "someone took my pen",
     ],
 )
@@ -129,6 +130,8 @@ def test_where_another_robot_is_that_robot_tells() -> None:
     robots = ("Ada", "Bob")
     asked = ENGINE.decide(situation("where is Bob?", objects=PLACES, robots=robots))
     assert isinstance(asked, Answer) and "where are you?" in asked.text
+    itself = ENGINE.decide(situation("where is Ada?", objects=PLACES, robots=robots))
+    assert not (isinstance(itself, Answer) and "Ask Ada" in itself.text)
 
 
 @pytest.mark.parametrize(
@@ -184,3 +187,5 @@ def test_an_order_to_another_robot_takes_nothing_of_what_this_one_offered() -> N
     offered = Dialogue(proposal=PlanProposal(id="7", target="Ada", why="It is not certain."))
     made = decided_shipped("Bob, go to bay A", robots=("Ada", "Bob"), dialogue=offered)
     assert isinstance(made, Do) and made.robots == ("Bob",)
+    both = decided_shipped("Ada and Bob, go to bay A", robots=("Ada", "Bob"), dialogue=offered)
+    assert isinstance(both, Edit)  # Ada is meant, too, so that what she offered gives way

@@ -41,7 +41,8 @@ def answer(
     if mention.kind == "pronoun":
         return _spoken_of(situation, before)
     name, _ = noun_phrase(thing.words, thing.head, lexicon)
-    if robot := next((one for one in situation.robots if one.lower() == " ".join(name)), ""):
+    others = (one for one in situation.robots if one != situation.robot)
+    if robot := next((one for one in others if one.lower() == " ".join(name)), ""):
         return Answer(f"{robot} is a robot. Ask {robot}: “{robot}, where are you?”")
     place = known_place(name, places(situation.memory, reader, lexicon))
     if place is not None:

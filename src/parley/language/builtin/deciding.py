@@ -362,9 +362,7 @@ def _without_order(
     if "need" in reading.acts:
         return Ask("What can I do about it? Tell me what to bring, or where to go.")
     if reading.acts == {"social"}:
-        leaves = re.search(
-            r"\b(?:good ?night|bye|goodbye|that's (?:all|it)|see you)\b", situation.message.lower()
-        )
+        leaves = policy.LEAVES.search(situation.message.lower())
         return Answer("Goodbye." if leaves else "Hello. Tell me what I can do for you.")
     if "told" in reading.acts:
         return Ask("I did not understand that as a fact about where something is. What shall I do with it?")

@@ -265,14 +265,14 @@ class Grounder:
         *whose, room = [word for word in filler.words if word not in leads] or [""]
         if room != "room" or (whose[-1:] != ["'s"] and whose not in (["his"], ["her"], ["their"])):
             return None
-        named = whose[-1:] == ["'s"]
-        place = known_place(whose[:-1], self.known) if named else None
-        if not named:
+        if named := whose[-1:] == ["'s"]:
+            place = known_place(whose[:-1], self.known)
+        else:
             place = self.last_person.place if self.last_person is not None else None
-            if place is None:
-                return Ask("Whose room do you mean?")
-        called = as_said(place.thing, place.memory.data) if place is not None else ""
-        return Value(called, with_article(called), (), place) if place is not None else None
+        if place is None:
+            return None if named else Ask("Whose room do you mean?")
+        called = as_said(place.thing, place.memory.data)
+        return Value(called, with_article(called), (), place)
 
     def _home(self, frame: str, filler: Filler, mention: Mention) -> Value | Ask | None:
         """Where it charges as its home, if nothing else is called so."""

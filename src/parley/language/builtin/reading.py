@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from parley.language.builtin.amounts import amount_of, direction_of
 from parley.language.builtin.lexicon import Lexicon, lemmas
-from parley.language.builtin.retyping import looks_here, retyped
+from parley.language.builtin.retyping import PLACING, looks_here, retyped
 from parley.language.builtin.spans import Filler, Parse, Span, Verb
 from parley.language.builtin.wishes import Wish, Witness
 from parley.umrf.kinds import is_word_for
@@ -475,7 +475,6 @@ def _joined(wishes: list[Wish]) -> list[Wish]:
 
 
 _MANY = ("T", "G", "L")
-_WITHIN = frozenset({"in", "on", "at", "near", "by", "under", "behind", "beside", "inside", "next"})
 _REPEATED = frozenset(
     {"GO", "LOOK", "FIND", "ON", "OFF", "OPEN", "CLOSE", "COUNT", "CLEAN", "TAKE", "BRING", "DO"}
 )
@@ -486,7 +485,7 @@ def _spread(wish: Wish) -> list[Wish]:
     for role in _MANY:
         several = wish.all(role)
         if role == "L" and (
-            wish.frame != "LOOK" or wish.has("T") or any(f.words[0] in _WITHIN for f in several)
+            wish.frame != "LOOK" or wish.has("T") or any(f.words[0] in PLACING for f in several)
         ):
             continue  # "in the office near the desk" is one place
         if wish.negated and len(several) == 2 and several[1].start - several[0].end == 1:

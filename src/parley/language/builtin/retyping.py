@@ -9,17 +9,16 @@ from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.spans import Filler
 from parley.language.builtin.wishes import Wish
 
-__all__ = ["BACKING", "looks_here", "retyped"]
+__all__ = ["BACKING", "PLACING", "looks_here", "retyped"]
 
 BACKING = frozenset({"back", "backup", "reverse", "backing", "reversing", "retreat"})
 """Verbs that say the direction themselves."""
 _HEREABOUTS = frozenset({"around", "round", "here"})
 _LOOKED_ON = frozenset({"on", "in", "inside", "at", "around", "round", "through", "over"})
 _HITHER = frozenset({"back", "here", "to", "over"})
-_AT = frozenset(
-    {"on", "in", "at", "near", "by", "under", "beside", "next", "behind", "inside", "from", "off"}
-)
+PLACING = frozenset({"on", "in", "at", "near", "by", "under", "beside", "next", "behind", "inside"})
 """Prepositions that say where something is, and not where to."""
+_AT = PLACING | {"from", "off"}
 _TOLD_OF = frozenset({"what", "which", "who", "how", "where", "if", "whether"})
 _QUESTION = frozenset({"question", "questions"})
 _NUMBERS = frozenset({("number", "of"), ("amount", "of")})

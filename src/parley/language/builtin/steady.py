@@ -10,6 +10,7 @@ import numpy as np
 from parley.language.builtin.folding import folded, requested
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.reading import Reading, read
+from parley.language.builtin.retyping import PLACING
 from parley.language.builtin.spans import Parse, parse
 from parley.language.builtin.tagger import Scores, Tagger
 from parley.language.builtin.tokens import Token
@@ -73,12 +74,10 @@ def _written_out(tokens: Sequence[Token]) -> list[str]:
     """The words as the tagger knows them: "Kim's at the desk" is "Kim is at the desk"."""
     behind = [token.low for token in tokens[1:]] + [""]
     pairs = zip(tokens, behind, strict=True)
-    return ["is" if token.low == "'s" and after in _WHERE else token.text for token, after in pairs]
-
-
-_WHERE = frozenset(
-    {"in", "on", "at", "by", "near", "under", "behind", "beside", "inside", "next", "here", "there"}
-)
+    return [
+        "is" if token.low == "'s" and after in PLACING | {"here", "there"} else token.text
+        for token, after in pairs
+    ]
 
 
 def named(tokens: Sequence[Token], known: Names) -> list[tuple[int, int]]:

@@ -91,13 +91,13 @@ def _with_names(scores: Scores, read: Sequence[int], size: int) -> Scores:
     """The scores of all words: what stands for a name counts for each of its words, as one span."""
     rows = np.searchsorted(read, np.arange(size))
     rows = rows[rows < len(scores.act)]
-    later = np.flatnonzero(rows[1:] == rows[:-1]) + 1
     inner = np.flatnonzero(rows[1:] == rows[:-1])
+    later = inner + 1
     every = {name: getattr(scores, name)[rows] for name in ("act", "frame", "role", "head", "mode", "move")}
-    for name, first in (("frame", 1), ("role", 1)):
-        begun = every[name][later, first : first + 2 * ((every[name].shape[1] - first) // 2) : 2]
-        every[name][later, first + 1 : first + 2 * begun.shape[1] : 2] += begun
-        every[name][later, first : first + 2 * begun.shape[1] : 2] = 0
+    for shares in (every["frame"], every["role"]):  # O, then B- and I- of each; of frames a "+" behind
+        end = shares.shape[1] - (shares.shape[1] - 1) % 2
+        shares[later, 2:end:2] += shares[later, 1:end:2]
+        shares[later, 1:end:2] = 0
     every["head"][inner, 1] = 0
     columns = [0, *(int(row) + 1 for row in rows)]
     arcs = scores.arcs[rows][:, columns]

@@ -115,7 +115,7 @@ _HELPING_WORDS: Final = frozenset(
     {"else", "has", "have", "had", "will", "is", "just", "already", "must", "again", "going", "to"}
 )
 _LOST: Final = re.compile(
-    r"(?P<what>\b(?:can(?:'t|’t|not| not) find|have lost|misplaced|looking for)\b.*?)"
+    r"(?P<what>\b(?:can(?:'t|’t|not| not) find|(?:have|['’]ve) lost|misplaced|looking for)\b.*?)"
     r"[\s,;.!?]+(?:so |and )?(?:can|could|would|will) (?:you|u) (?:please )?help\b.*$",
     re.IGNORECASE,
 )

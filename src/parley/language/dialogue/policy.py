@@ -45,7 +45,7 @@ from parley.messages.plain import in_words
 from parley.umrf.kinds import words_of_name
 from parley.world.object_map import MapObject
 
-__all__ = ["afterwards", "beforehand", "no_facts", "only_names", "promised", "spoken_of"]
+__all__ = ["LEAVES", "afterwards", "beforehand", "no_facts", "only_names", "promised", "spoken_of"]
 
 
 _ALL: Final = (
@@ -59,6 +59,8 @@ _SOCIAL: Final = re.compile(
     r"cheers|well done|good (?:job|boy|robot|work)|nice|great|perfect|cool|wow|haha+.*|lol|sorry|"
     r"you(?: are|'re| r) .+)"
 )
+LEAVES: Final = re.compile(r"\b(?:good ?night|(?:good)?bye|see you)\b")
+"""What is said to go, in small letters."""
 _TURNS: Final = 8
 _ANSWER: Final = 10
 """So many words a choice among several things has at most."""
@@ -280,7 +282,7 @@ def afterwards(
         lexicon: Words.
     """
     if isinstance(made, Do):
-        if {*made.robots} - {situation.robot}:
+        if made.robots and situation.robot not in made.robots:
             return made  # nothing of what this one does or offers is meant
         proposal = situation.dialogue.proposal
         if proposal is not None and proposal.why and not situation.queue:
@@ -301,7 +303,7 @@ def afterwards(
         return Answer(f"Hello, {met['name']}. What can I do for you?")
     ordered = any(wish.act == "order" for wish in reading.wishes)  # "thank you, go back"
     if isinstance(made, Ask | Answer) and not (offers or ordered) and _SOCIAL.fullmatch(bare):
-        if bare.startswith(("bye", "goodbye", "good night", "see you")):
+        if LEAVES.match(bare):
             return Answer("Goodbye.")
         greets = bare.startswith(("hello", "hi", "hey", "good ", "you", "sorry"))
         return Answer("Hello. What can I do for you?" if greets else "You are welcome.")
