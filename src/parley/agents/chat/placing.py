@@ -1,6 +1,6 @@
 """What the chat does about places that people name where a robot stands: asks, and puts them on its map.
 
-Wiring only; what a message names is read in `parley.language.dialogue.placing`, before any language engine
+Wiring only; what a message names is read in `parley.agents.chat.place_names`, before any language engine
 sees it, and what may be put on the map is decided where it is kept (`parley.agents.places`).
 """
 
@@ -13,13 +13,13 @@ from dataclasses import dataclass
 from typing import Final
 
 from parley.agents.base import Node
+from parley.agents.chat.place_names import corrected_place, forgotten_place, named_here, taken_off
 from parley.agents.chat.situations import Situations
 from parley.agents.display.map_service import room_of, thing_of
 from parley.agents.presence import Presence
 from parley.errors import InvalidMessageError, TransportError
 from parley.gate.assent import assent_of
 from parley.gate.table import Effect, verdict
-from parley.language.dialogue.placing import corrected_place, forgotten_place, named_here, taken_off
 from parley.latest import Latest
 from parley.messages import topics
 from parley.messages.chat import ChatFeedback, ChatInput

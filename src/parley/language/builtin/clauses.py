@@ -181,6 +181,11 @@ def _is_link(parse: Parse, low: Sequence[str], at: int, size: int, link: Link, l
         return low[at + 1] in _BEING | _BACK  # "go after Kim" is following
     if low[at] == "once":
         return at + 2 < len(low) and low[at + 1] not in _STOPS | _JOINS
+    if link == "not" and low[at] in lexicon.classes["dismissing"]:
+        end = next((place for place in range(at, len(low)) if low[place] in _STOPS), len(low))
+        orders = [verb.start for verb in parse.verbs if parse.acts[verb.start] == "order"]
+        named = at + size < end and not {*low[at + size : end]} & lexicon.classes["remaining"]
+        return apart and named and any(start < at or start > end for start in orders)
     if link == "not" and low[at] == "not":
         return apart and at > 0 and before != "or"
     if link == "not" and low[at] == "without":

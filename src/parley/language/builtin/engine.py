@@ -18,6 +18,7 @@ from parley.language.base import (
     Situation,
 )
 from parley.language.builtin import pictures
+from parley.language.builtin.amending import amended
 from parley.language.builtin.clauses import Clause, clauses
 from parley.language.builtin.deciding import decide
 from parley.language.builtin.decision import Answer, Ask, Decision, Do
@@ -182,6 +183,9 @@ class BuiltinLanguage:
     def _read_text(self, text: str, names: Names = ()) -> tuple[Parse, Reading]:
         tokens = spoken(tokenize(text)) or tokenize(text)
         found = self._steadily(tokens, names)
+        while (instead := amended(found[0], self._lexicon)) is not None:
+            tokens = instead
+            found = self._steadily(tokens, names)
         if not (found[1].unsteady or found[1].left_over):
             return found
         stop = Token(".", tokens[-1].end, tokens[-1].end)  # it helps with names that nobody knows

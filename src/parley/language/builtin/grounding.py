@@ -414,6 +414,11 @@ class Grounder:
         found = group(filler.words, self.situation.objects, self.lexicon, without)
         return found is not None and not (without and found.doubt)
 
+    def is_one(self, filler: Filler) -> bool:
+        """Whether a role names one thing of the map, and no set."""
+        one = link(filler.words, filler.head, self.situation.objects, self.lexicon).kind == "one"
+        return one and not self.names_set(filler)
+
     def knows(self, filler: Filler) -> bool:
         """Whether a role names something of the map, with all of its words."""
         if filler.role not in "TGLS":

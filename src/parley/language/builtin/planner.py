@@ -260,6 +260,13 @@ class Planner:
                 case "except":
                     words = tuple(word for word in words if word not in ("please", "out"))
                     kept = tuple(wish for wish in wishes if not self.builder.names_same(words, [wish]))
+                    fillers = [filler for wish in wishes for filler in wish.all("T") + wish.all("G")]
+                    single = fillers and kept == wishes and all(map(self.builder.is_one, fillers))
+                    small = self.builder.lexicon.classes["determiners"]
+                    called = tuple(word for word in words if word not in small)
+                    if single and self.builder.is_one(Filler("T", 0, len(called), len(called) - 1, called)):
+                        self.builder.left_undone(f"not {limit.text}")
+                        continue
                     self.builder.left_out = () if 0 < len(kept) < len(wishes) else words
                     wishes = kept or wishes
                 case "not":

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from operator import itemgetter
 
 from parley.language.builtin.amounts import amount_of, direction_of
 from parley.language.builtin.lexicon import Lexicon, lemmas
@@ -61,9 +62,12 @@ def read(parse: Parse, lexicon: Lexicon) -> Reading:
     wanted = _without_openers(_once([retyped(wish, lexicon) for wish in ordered]), parse)
     wanted = _in_order(_led(_shared(wanted)), lexicon)
     spread = [part for wish in wanted for part in _spread(wish)]
+    turns = _turns(spread, parse, lexicon)
+    spread = [wish for _, wish in sorted(zip(turns, spread, strict=True), key=itemgetter(0))]
     idle = _left_over(parse, lexicon)
     manner = tuple(word for word in idle if word.lower() in lexicon.classes["manner"])
     looks = lexicon.classes["looking"] if any(wish.frame == "LOOK" for wish in spread) else frozenset()
+    looks |= {"last"} if 2 in turns else frozenset()
     left = tuple(word for word in idle if word not in manner and word.lower() not in looks)
     moves = frozenset(parse.moves) - {"none"}
     return Reading(_acts(parse), tuple(spread), rest, left, manner, _about(parse, lexicon), moves)
@@ -332,6 +336,18 @@ def _in_order(wishes: list[Wish], lexicon: Lexicon) -> list[Wish]:
     return sorted(kept, key=lambda wish: turn.get(wish.verb.split(" ")[0], 1))
 
 
+def _turns(wishes: list[Wish], parse: Parse, lexicon: Lexicon) -> list[int]:
+    """Of each wish whether it comes first (0) or last (2): "the gate last", "the dock, the gate first"."""
+    low = [token.low for token in parse.tokens] + [""]
+    words = {word for wish in wishes for filler in wish.fillers for word in filler.words}
+    bound = words & (lexicon.classes["pronouns"] | lexicon.classes["there"])
+    simple = all(wish.frame == wishes[0].frame and not wish.negated and wish.act != "told" for wish in wishes)
+    if bound or not simple:
+        return [1] * len(wishes)
+    behind = [{low[filler.end] for filler in wish.fillers} for wish in wishes]
+    return [0 if "first" in words else 2 if "last" in words else 1 for words in behind]
+
+
 _HOW = frozenset({"how", "the", "way"})
 _NAMED = frozenset("TGSLR")
 """Roles that name a thing, a place or a person."""
@@ -568,17 +584,42 @@ _STATES_OF_ONES_OWN = 3
 """So many words at most say how the speaker is."""
 
 
-def _own_state(parse: Parse, lexicon: Lexicon) -> set[int]:
-    """The words of "I am tired" and "we are really cold" before an order: nothing is wished by them."""
+def _states(parse: Parse, lexicon: Lexicon) -> set[int]:
+    """The words of "I am tired" and "it's really stuffy" beside an order: nothing is wished by them."""
     low = [token.low for token in parse.tokens]
-    first = next((verb.start for verb in parse.verbs if parse.acts[verb.start] == "order"), 0)
-    for at in range(first - 2):
-        said = low[at + 2 : first]
-        own = low[at] in ("i", "we") and low[at + 1] in ("am", "'m", "’m", "are", "'re", "’re", "feel")
-        bound = any({*said} & lexicon.classes[one] for one in ("logic", "mental", "clock", "prepositions"))
-        if own and len(said) <= _STATES_OF_ONES_OWN and not bound and (not at or low[at - 1] in _BREAKS):
-            return {*range(at, first)}
-    return set()
+    orders = [verb.start for verb in parse.verbs if parse.acts[verb.start] == "order"]
+    named = {at for span in parse.spans if span.role in _NAMED for at in range(span.start, span.end)}
+    kinds = ("logic", "mental", "prepositions", "determiners", "clock")
+    found: set[int] = set()
+    for at in range(len(low) - 2 if orders else 0):
+        if low[at] not in _WHO or low[at + 1] not in _ARE or (at and low[at - 1] not in _BREAKS | _WHY):
+            continue
+        end = at + 2
+        while end < len(low) and end not in orders and parse.tokens[end].is_word and low[end] not in _BREAKS:
+            end += 1
+        said = {*low[at + 2 : end]}
+        bound = any(said & lexicon.classes[one] for one in kinds) or named & {*range(at + 2, end)}
+        before = low[at] not in ("i", "we") or end <= max(orders)
+        if said and len(said) <= _STATES and before and not bound:
+            found |= {*range(at - (at > 0 and low[at - 1] in _WHY), end)}
+    return found
+
+
+_WHO = frozenset({"i", "we", "it", "he", "she", "they"})
+_ARE = frozenset({"am", "'m", "are", "'re", "feel", "is", "'s", "was", "were", "has", "looks", "seems"})
+_WHY = frozenset({"because", "since", "as"})
+_STATES = 3
+"""So many words at most say how somebody or something is."""
+
+
+def _wanting(parse: Parse) -> set[int]:
+    """The word before what is to be done with a thing: "the gate needs closing", "the gate wants a look"."""
+    ordered = {verb.start for verb in parse.verbs if parse.acts[verb.start] == "order" and not verb.negated}
+    said = [at for at, token in enumerate(parse.tokens) if token.low in _WANTING]
+    return {at for at in said if ordered & {at + 1, at + 2}}
+
+
+_WANTING = frozenset({"need", "needs", "want", "wants", "requires", "ought", "deserves"})
 
 
 def _ones(lexicon: Lexicon) -> frozenset[str]:
@@ -593,7 +634,7 @@ def _left_over(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
         taken |= _leading(parse, verb, lexicon)
     for span in parse.spans:
         taken |= set(range(span.start, span.end))
-    taken |= _own_state(parse, lexicon)
+    taken |= _states(parse, lexicon) | _wanting(parse)
     taken |= {at for verb in parse.verbs for at in _opened(parse, verb)}
     if any(verb.frame == "ANSWER" for verb in parse.verbs):
         asked = [at for at, token in enumerate(parse.tokens) if token.low in ("question", "questions")]
@@ -618,7 +659,7 @@ def _left_over(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
             continue
         if any(
             " ".join(low[max(at - back, 0) : at - back + size]) in small
-            for size in (2, 3)
+            for size in (2, 3, 4, 5)
             for back in range(size)
         ):
             continue

@@ -202,12 +202,12 @@ def _ordered(made: Decision) -> Do | None:
 
 
 _TAKEN_BACK: Final = re.compile(
-    r"\W*(?:(?:oh|no|ah|ok|okay|well|hm+|please|sorry|actually|wait|ugh)\W+)*(?:forget (?:it|that|this|"
-    r"about (?:it|that))|"
-    r"never ?mind(?: (?:it|that|this))?|scratch (?:that|it)|drop (?:that|it)|leave (?:that|it)|"
-    r"cancel (?:that|it)|"
-    r"change of plans?|on second thoughts?|i(?: have|'ve)? changed my mind|that was wrong|nope|not that|"
-    r"no(?! (?:need to (?!hurry)|one|more|way|matter|longer)\b)|"
+    r"\W*(?:(?:oh|no|ah|ok|okay|well|hm+|please|sorry|actually|wait|ugh)\W+)*"
+    r"(?:(?:forget (?:it|that|this|about (?:it|that))|never ?mind(?: (?:it|that|this))?|scratch (?:that|it)|"
+    r"drop (?:that|it)|leave (?:that|it)|cancel (?:that|it)|not that)"
+    r"(?=\s*(?:[^\w\s]|(?:and|then|just|please|instead|now|but|go|come|drive|check|look|take|bring)\b))|"
+    r"change of plans?|on second thoughts?|i(?: have|'ve)? changed my mind|that was wrong|nope|"
+    r"no(?! (?:need to (?!hurry)|need for|one|more|way|matter|longer)\b)|"
     r"i mean|i meant|(?:sorry|oops|wait|hang on|hold on)(?=\s*[,.;:!]))"
     r"\W+(?:(?:and|then|please|just|rather|instead|now|but|no|wait|sorry|hang on|hold on|i mean|i meant)\W+)*"
     r"(?P<rest>\w.+?)(?:,? (?:instead|rather))?\W*$",

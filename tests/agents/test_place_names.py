@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from parley.language.dialogue.placing import corrected_place, forgotten_place, named_here, taken_off
-from parley.language.lexicon import load_data
+from parley.agents.chat.place_names import corrected_place, forgotten_place, named_here, taken_off
+from parley.files import words_in
 
-DATA: dict[str, Any] = load_data("placing")
+DATA: dict[str, Any] = words_in("parley.agents.chat", "place_names")
 
 
 @pytest.mark.parametrize(("said", "name"), DATA["tests"].items())

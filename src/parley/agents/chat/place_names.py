@@ -10,7 +10,7 @@ import re
 from functools import cache
 from typing import Any, Final
 
-from parley.language.lexicon import load_data
+from parley.files import words_in
 
 __all__ = ["corrected_place", "forgotten_place", "named_here", "taken_off"]
 
@@ -82,7 +82,7 @@ def _found(kind: str, text: str) -> str:
 def _name(said: str) -> str:
     name = _ARTICLE.sub("", said.strip(" \"“”„«»'‘’"))
     words = re.findall(r"[\w'’-]+", name.lower())
-    data = load_data("placing")
+    data = words_in("parley.agents.chat", "place_names")
     head = re.findall(r"[\w'’-]+", _HEAD_ENDS.split(name.lower())[0])
     fine = 0 < len(words) <= _MOST_WORDS and head and not {*words} & {*data["clause"]}
     return name if fine and not {head[-1], words[0]} & {*data["nothing"]} else ""
@@ -90,7 +90,7 @@ def _name(said: str) -> str:
 
 @cache
 def _shapes(kind: str) -> tuple[re.Pattern[str], ...]:
-    read: dict[str, Any] = load_data("placing")
+    read: dict[str, Any] = words_in("parley.agents.chat", "place_names")
     return tuple(re.compile(_filled(line, read["parts"]), re.IGNORECASE) for line in read[kind].splitlines())
 
 
