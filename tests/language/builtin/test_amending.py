@@ -62,6 +62,9 @@ def test_what_is_taken_back_is_not_done(said: str) -> None:
         "bring the crate to the dock, no, the drum",
         "go to the dock, no, first to the press",
         "go to the dock, no need to hurry",
+        "go to the dock, the north one I mean",
+        "go to the dock and check the door. Sorry, I said dock but I meant press",
+        "is the press open? yes - go to bay A, no - go to the dock",
     ],
 )
 def test_where_it_is_not_plain_what_is_taken_back_it_is_asked(said: str) -> None:
@@ -109,3 +112,16 @@ def test_first_and_last_are_an_order(said: str, order: list[str]) -> None:
 )
 def test_words_that_change_what_is_meant_are_not_left_out(said: str) -> None:
     assert not isinstance(decided(said), Do)
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "check the dock, and if it's not there, check the press",
+        "check the dock. If there is no crate, check the press",
+        "go to the dock, make it quick, and then go to the press",
+    ],
+)
+def test_words_that_only_look_so_take_nothing_back(said: str) -> None:
+    made = decided(said)
+    assert isinstance(made, Ask) or driven(said) == ["dock", "press"]

@@ -10,7 +10,8 @@ from parley.language.builtin.decision import Answer, Ask, Decision, Do, Edit, Re
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.builtin.lexicon import lexicon
 from parley.language.builtin.reply import to_chat
-from parley.language.dialogue.state import Dialogue, Order
+from parley.language.dialogue.state import Deed, Dialogue, Order
+from parley.messages.chat import ActionCall
 from parley.messages.memory import MemoryEntry
 from parley.messages.status import PlanProposal
 from parley.world.object_map import MapObject
@@ -108,7 +109,7 @@ def test_a_reminder_is_not_said_at_once() -> None:
     ("said", "fact"),
     [
         ("I moved the crate to bay B", "the crate is at bay B"),
-        ("I left my gloves in bay B", "I left my gloves in bay B"),
+        ("I left my gloves in bay B", "my gloves are in bay B"),
         ("we've put the parcels in bay C", "we've put the parcels in bay C"),
     ],
 )
@@ -189,3 +190,47 @@ def test_an_order_to_another_robot_takes_nothing_of_what_this_one_offered() -> N
     assert isinstance(made, Do) and made.robots == ("Bob",)
     both = decided_shipped("Ada and Bob, go to bay A", robots=("Ada", "Bob"), dialogue=offered)
     assert isinstance(both, Edit)  # Ada is meant, too, so that what she offered gives way
+
+
+YARD = tuple(
+    MapObject(name.replace(" ", "_"), name, x, y)
+    for name, x, y in (("pump by the door", 1.0, 1.0), ("pump in the yard", 8.0, 1.0), ("desk", 8.0, 9.0),
+                       ("large crate", 4.0, 4.0), ("small crate", 5.0, 9.0))
+)  # fmt: skip
+
+
+def after(past: str, said: str) -> Decision:
+    past_turns = (Turn("operator", past),)
+    return ENGINE.decide(situation(said, objects=YARD, catalogue=SHIPPED, history=past_turns))
+
+
+def targets(made: Decision) -> set[object]:
+    assert isinstance(made, Do), made
+    return {value for deed in made.deeds for value in deed.arguments.values()}
+
+
+def test_one_that_is_somewhere_else_is_another_one() -> None:
+    assert targets(after("check the pump by the door", "now check the one in the yard")) == {
+        "pump in the yard"
+    }
+    assert isinstance(after("check the desk", "check the one in the yard"), Ask)
+
+
+@pytest.mark.parametrize("said", ["go to the crate, the large one", "go to the big crate"])
+def test_which_of_several_may_be_said_behind_it_and_in_another_word(said: str) -> None:
+    assert targets(ENGINE.decide(situation(said, objects=YARD, catalogue=SHIPPED))) == {"large crate"}
+
+
+def test_how_the_thing_is_that_was_spoken_of_is_offered_to_be_looked_at() -> None:
+    made = after("go to the desk", "is there a cup on it?")
+    assert isinstance(made, Ask)
+    assert {value for deed in made.offer for value in deed.arguments.values()} >= {"desk"}
+    assert isinstance(after("go to the desk", "is it raining?"), Answer)
+
+
+def test_what_was_not_done_is_not_said_to_be_done() -> None:
+    drove = Deed("Go to “desk”", ActionCall(name="NavigateTo"), effects=("moves",), ending="done")
+    said = situation("did you give it to her?", dialogue=Dialogue(deeds=(drove,), now_unix_ms=1))
+    made = ENGINE.decide(said)
+    assert isinstance(made, Answer)
+    assert made.text.startswith("No.")

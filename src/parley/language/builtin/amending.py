@@ -17,6 +17,7 @@ __all__ = ["amended"]
 
 _MARKS = frozenset({",", ".", "?", "-", "–", "—", ";", ":", "…", "!"})
 _NAMED = frozenset("TGLSRHN")
+_BINDING = frozenset({"if", "unless", "until", "when", "before", "after"})
 
 
 def amended(found: Parse, lexicon: Lexicon) -> tuple[Token, ...] | None:
@@ -24,8 +25,9 @@ def amended(found: Parse, lexicon: Lexicon) -> tuple[Token, ...] | None:
     low = [token.low for token in found.tokens]
     for at in range(2, len(low) - 1):
         behind = _behind(low, at, lexicon)
-        if behind == at or (low[at - 1] not in _MARKS and behind - at < 2):
-            continue  # one word may be a part of what is said: "with no bags"
+        breaks = low[at] in lexicon.classes["breaking"] and behind - at > 1
+        if behind in (at, len(low)) or not (breaks or low[at - 1] in _MARKS):
+            continue  # one word may be a part of what is said: "with no lid"
         start = _taken_back(found, low, at, behind, lexicon)
         if start is not None:
             return (*found.tokens[:start], *found.tokens[behind:])
@@ -34,24 +36,23 @@ def amended(found: Parse, lexicon: Lexicon) -> tuple[Token, ...] | None:
 
 def _behind(low: Sequence[str], at: int, lexicon: Lexicon) -> int:
     """Where the words end that take something back; where they would begin if there are none."""
-    end, strong = at, False
+    end, strong, terms = at, False, lexicon.classes["amending"] | lexicon.classes["faltering"]
     while end < len(low):
-        sizes = (size for size in (3, 2, 1) if " ".join(low[end : end + size]) in _terms(lexicon))
+        sizes = (n for n in (4, 3, 2, 1) if " ".join(low[end : end + n]) in terms)
         if (size := next(sizes, 0)) == 0:
             break
         strong |= " ".join(low[end : end + size]) in lexicon.classes["amending"]
-        end += size
+        end = min(end + size, len(low))
         while end < len(low) and low[end] in _MARKS:
             end += 1
     return end if strong else at
 
 
-def _terms(lexicon: Lexicon) -> frozenset[str]:
-    return lexicon.classes["amending"] | lexicon.classes["faltering"]
-
-
 def _taken_back(found: Parse, low: list[str], at: int, behind: int, lexicon: Lexicon) -> int | None:
     """Where that begins which is taken back; None if that is not plain."""
+    bare = low[at:behind] == ["no"] and low[behind] not in lexicon.classes["determiners"]  # "no lids"
+    if bare or "yes" in low[:at] or found.acts[behind] in ("told", "need", "question", "alarm"):
+        return None  # "yes: go to the gate, no: stay here"
     ordered = [verb for verb in found.verbs if verb.start < at and found.acts[verb.start] == "order"]
     end = next((place for place in range(behind, len(low)) if low[place] in _MARKS), len(low))
     if not ordered or ordered[-1].negated or {*low[behind:end]} & lexicon.classes["adding"]:
@@ -60,7 +61,8 @@ def _taken_back(found: Parse, low: list[str], at: int, behind: int, lexicon: Lex
     instead = [verb for verb in found.verbs if behind <= verb.start < end]
     if instead and instead[0].start <= behind + 2:
         same = instead[0].frame == last.frame or len(ordered) == 1
-        return last.start if same and not instead[0].negated and not _parted(low, last, at) else None
+        parted = {*low[: last.start]} & _BINDING or any(word in ".?!;" for word in low[last.start : at - 1])
+        return last.start if same and not instead[0].negated and not parted else None
     said = [span for span in found.spans if span.start <= behind + 1 <= span.end]
     if not any(span.role in _NAMED | {"E"} for span in said):
         return None
@@ -71,11 +73,6 @@ def _taken_back(found: Parse, low: list[str], at: int, behind: int, lexicon: Lex
     return span.start + (led and low[behind] not in lexicon.classes["prepositions"])
 
 
-def _parted(low: Sequence[str], verb: Verb, at: int) -> bool:
-    """Whether what was ordered last is bound to something else: "if it is open go to the gate, no, ..."."""
-    return bool({*low[: verb.start]} & {"if", "unless", "until", "when", "before", "after"})
-
-
 def _place_of(
     found: Parse, low: Sequence[str], verb: Verb, at: int, behind: int, lexicon: Lexicon
 ) -> Span | None:
@@ -84,9 +81,12 @@ def _place_of(
     mine = [
         span
         for span in found.spans
-        if verb.end <= span.start < at and span.role in _NAMED and low[span.end - 1] not in me
+        if verb.end <= span.start < at
+        and span.role in _NAMED
+        and low[span.end - 1] not in me
+        and found.acts[span.start] == "order"
     ]
-    if not mine:
+    if not mine or mine[-1].end + (low[at - 1] in _MARKS) != at:
         return None
     if low[behind] in leads:
         alike = [span for span in mine if low[span.start] == low[behind]]

@@ -13,7 +13,7 @@ from parley.language.builtin.reading import Reading
 from parley.language.builtin.saying import as_said, with_article
 from parley.language.builtin.things import link, noun_phrase
 from parley.language.builtin.tokens import Token, tokenize
-from parley.language.dialogue.mentions import Named
+from parley.language.dialogue.mentions import Named, named
 from parley.language.dialogue.places import lies, whereabouts
 from parley.world.object_map import MapObject
 
@@ -49,10 +49,13 @@ def answer(
         return Answer(f"I remember: {place.memory.data.rstrip('.')}.", (place.memory.name,))
     if mention.kind == "one":
         told = None if "where" in situation.message.lower() else _kept(situation, lexicon)
+        tokens = tokenize(situation.message)
+        if not told and look_asked_for(tokens, named(tokens, situation.objects, lexicon)):
+            return Answer("How that is now I only see when I look there.")
         return told or Answer(_lying(situation, mention.things[0]))
     if mention.kind == "several":
-        named = " and ".join(with_article(item.description) for item in mention.things)
-        return Answer(f"On my map there is {named}.")
+        both = " and ".join(with_article(item.description) for item in mention.things)
+        return Answer(f"On my map there is {both}.")
     shown = with_article(as_said(mention.text, situation.message))
     return _kept(situation, lexicon) or Answer(f"I do not know anything about {shown}.")
 

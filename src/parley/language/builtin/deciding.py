@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from parley.gate.assent import gives_up
+from parley.gate.assent import assent_of, gives_up
 from parley.gate.control import control_of
 from parley.language.base import Situation
 from parley.language.builtin.addressing import addressed, for_nobody
@@ -147,6 +147,13 @@ def _looking(
         return sight
     names = named(tokens, situation.objects, lexicon)
     spaces = [] if names else named(tokens, situation.rooms, lexicon)
+    it, _ = policy.spoken_of(situation, (), lexicon)
+    vague = {token.low for token in tokens} & (
+        lexicon.classes["clock"] | {"true", "possible", "ok", "you", "me"}
+    )
+    if not (names or spaces or vague) and isinstance(it, MapObject):  # "is it open?", "is there a cup on it?"
+        tokens = tokenize(_IT.sub(f"the {it.description}", situation.message, count=1))
+        names = named(tokens, situation.objects, lexicon)
     called = {word for robot in situation.robots for word in robot.lower().split()}
     order = look_asked_for(tokens, names or spaces, called)
     order = f"go to the {spaces[0].text} and {order}" if order and spaces else order
@@ -156,6 +163,9 @@ def _looking(
     if not isinstance(made, Do) or {*made.robots} - {situation.robot}:
         return None
     return Ask("I cannot tell that from here. Shall I go and look?", offer=made.deeds)
+
+
+_IT = re.compile(r"\bit\b", re.IGNORECASE)
 
 
 def _sight(
@@ -359,6 +369,8 @@ def _without_order(
         return answer(situation, reading, lexicon, reader, before)
     if not situation.question and situation.dialogue.asked is None and gives_up(situation.message):
         return Answer("All right.")
+    if assent_of(situation.message) and not situation.question and situation.dialogue.asked is None:
+        return Ask("I have not asked anything that a yes would answer. What shall I do, and with what?")
     if "need" in reading.acts:
         return Ask("What can I do about it? Tell me what to bring, or where to go.")
     if reading.acts == {"social"}:

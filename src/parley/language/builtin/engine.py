@@ -67,7 +67,7 @@ class BuiltinLanguage:
         self._parts = lru_cache(maxsize=64)(self._parted)
 
     async def __aenter__(self) -> Self:
-        await asyncio.to_thread(shipped_tagger)
+        await asyncio.to_thread(self.decide, Situation("is it open?"))  # reads the weights and all shapes
         return self
 
     async def __aexit__(
@@ -87,8 +87,8 @@ class BuiltinLanguage:
 
     async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
         """See `Language.interpret`."""
-        chat = self._addressed(to_chat(self.decide(situation), self._lexicon), situation)
-        chat = founded(chat, situation)
+        decision = await asyncio.to_thread(self.decide, situation)
+        chat = founded(self._addressed(to_chat(decision, self._lexicon), situation), situation)
         if not situation.pictures:
             return chat
         text = f"I cannot see what is in a picture. {chat.message_response}"
@@ -235,7 +235,8 @@ class BuiltinLanguage:
 
     async def resolve(self, situation: ErrorSituation) -> ChatAction:
         """See `Language.resolve`."""
-        return Repairer(self._lexicon, self.decide, self.reading).resolve(situation)
+        repairer = Repairer(self._lexicon, self.decide, self.reading)
+        return await asyncio.to_thread(repairer.resolve, situation)
 
     async def ground(
         self, description: str, objects: Sequence[MapObject], pose: Pose2D | None = None

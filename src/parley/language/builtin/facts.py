@@ -49,10 +49,12 @@ def told_of(
     found = [*before]
     for wish in reading.wishes:
         thing = wish.one("T")
-        moved = wish.frame in ("PUT", "BRING") and wish.start > 0
+        said = message[starts[wish.start - 1] : starts[wish.start]].strip().lower() if wish.start else ""
+        behind = thing is not None and thing.start > wish.start  # "I left the box there"
+        left = wish.frame == "BELOC" and said in ("i", "we", "just") and behind and wish.start < 3
+        moved = left or (wish.frame in ("PUT", "BRING") and wish.start > 0)
         if not (moved or wish.frame in ("BELOC", "GO")) or wish.act != "told":
             continue
-        said = message[starts[wish.start - 1] : starts[wish.start]].strip().lower() if wish.start else ""
         name = _name(thing, lexicon) if thing is not None else (said,)
         if {*name} & (lexicon.classes["pronouns"] | lexicon.classes["persons"] | {"they"}):
             found = _moved(found, wish, reading)

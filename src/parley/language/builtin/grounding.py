@@ -16,7 +16,7 @@ from parley.language.builtin.sets import Group, apart, group, without
 from parley.language.builtin.skills import Skills
 from parley.language.builtin.spans import Filler
 from parley.language.builtin.spatial import beside, picked
-from parley.language.builtin.things import Mention, link, noun_phrase
+from parley.language.builtin.things import Mention, head_of, link, noun_phrase
 from parley.language.builtin.tokens import Token, point_of, tokenize
 from parley.language.builtin.wishes import Wish
 from parley.language.dialogue.mentions import named, same_kind
@@ -105,7 +105,10 @@ class Grounder:
             return Value(text, text, amount=amount)
         if kind == "text":
             return Value(filler.text, filler.text)
+        plain, filler = filler, self._one_like_it(wish, filler)
         mention = link(filler.words, filler.head, self.situation.objects, self.lexicon)
+        if filler is not plain and mention.things == (self._it(),):  # "the one" is another one
+            return self._unknown(filler.text, wish.frame, sought=True)
         if kind == "person":
             return self._person(filler, mention)
         thing = wish.one("T") if wish.frame in ("LOOK", "FIND") and filler.role in "GL" else None
@@ -114,6 +117,24 @@ class Grounder:
         )
         placed = wish.has("SL") if wish.frame != "LOOK" else any(f.words[0] in WITHIN for f in wish.all("L"))
         return self._thing("" if known else wish.frame, filler, mention, placed=placed)
+
+    def _it(self) -> MapObject | None:
+        """The thing that was spoken of last."""
+        last = self.last_thing.things if self.last_thing is not None else ()
+        return last[0] if len(last) == 1 else self.before
+
+    def _one_like_it(self, wish: Wish, filler: Filler) -> Filler:
+        """For "the one in the yard", "the one next to it": one of the kind that was spoken of last."""
+        words = filler.words
+        at = words.index("one") if "one" in words else len(words)
+        it = self._it()
+        where = next((one.words for one in wish.fillers if one.role in "LS" and one is not filler), ())
+        where = words[at + 1 :] or (() if {"this", "that"} & {*words} else where)
+        if it is None or not where or at == len(words):
+            return filler
+        name = it.description.lower().split()
+        told = (*words[:at], name[head_of(name, self.lexicon)], *where)
+        return replace(filler, words=told, head=at, said=" ".join(told))
 
     def _person(self, filler: Filler, mention: Mention) -> Value | Ask:
         if mention.kind == "pronoun":
@@ -241,8 +262,7 @@ class Grounder:
 
     def _beside(self, filler: Filler, things: Sequence[MapObject]) -> MapObject | None:
         """Of several things the one beside what was spoken of before: "the chair next to it"."""
-        last = self.last_thing.things if self.last_thing is not None else ()
-        it = last[0] if len(last) == 1 else self.before
+        it = self._it()
         if it is None or it in things or not {*filler.words} & self.lexicon.classes["pronouns"]:
             return None
         return beside(it, things)

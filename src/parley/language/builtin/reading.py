@@ -60,7 +60,7 @@ def read(parse: Parse, lexicon: Lexicon) -> Reading:
         rest = tuple(filler for filler in rest if filler not in where)
     ordered = sorted([*wishes, *implied_wishes], key=lambda wish: wish.start)
     wanted = _without_openers(_once([retyped(wish, lexicon) for wish in ordered]), parse)
-    wanted = _in_order(_led(_shared(wanted)), lexicon)
+    wanted = _in_order(_shared(wanted), lexicon)
     spread = [part for wish in wanted for part in _spread(wish)]
     turns = _turns(spread, parse, lexicon)
     spread = [wish for _, wish in sorted(zip(turns, spread, strict=True), key=itemgetter(0))]
@@ -119,6 +119,9 @@ def _merged(parse: Parse) -> list[Span]:
             head = span.head if span.role in "NH" else last.head
             found[-1] = replace(last, end=span.end, head=head, share=min(last.share, span.share))
             continue
+        if last is not None and (same := _same_one(parse, last, span)) is not None:
+            found[-1] = same
+            continue
         if last is not None and last.role == span.role == "L" and span.owner in (None, last.owner):
             between = [token.low for token in parse.tokens[last.end : span.start]]
             if {*between} <= {",", "and"} and "and" in between:  # "at the desk and at the gate"
@@ -140,6 +143,15 @@ def _merged(parse: Parse) -> list[Span]:
             span = replace(span, owner=nearest)
         found.append(span)
     return found
+
+
+def _same_one(parse: Parse, thing: Span, span: Span) -> Span | None:
+    """One of which it is said behind a comma which one it is: "the crate, the one with the lid"."""
+    if span.start != thing.end + 1:
+        return None
+    low = [token.low for token in parse.tokens[thing.end : span.end]]
+    more = low[:3] == _THE_ONE and low[3:]
+    return replace(thing, end=span.end) if more else thing if _which_one(parse, thing.end) else None
 
 
 def _is_its_place(parse: Parse, thing: Span, place: Span) -> bool:
@@ -309,20 +321,6 @@ _GETTING = frozenset({"TAKE", "FIND", "BRING"})
 _SHARING = frozenset({"FIND", "TAKE", "LOOK", "FOLLOW"})
 
 
-def _led(wishes: list[Wish]) -> list[Wish]:
-    """Whom is shown how to get somewhere is led there."""
-    found: list[Wish] = []
-    for wish in wishes:
-        last = found[-1] if found else None
-        how = last is not None and any({*f.words} <= _HOW for f in last.all("X") + last.all("K"))
-        if last is not None and how and last.frame == "GUIDE" and wish.frame == "GO" and wish.has("G"):
-            kept = (f for f in last.fillers if f.role not in "XK")
-            found[-1] = replace(last, fillers=(*kept, *wish.all("G")))
-            continue
-        found.append(wish)
-    return found
-
-
 def _in_order(wishes: list[Wish], lexicon: Lexicon) -> list[Wish]:
     """With where to begin first and where to end last: "finish at the desk but start at the gate"."""
     turn = {"start": 0, "begin": 0, "finish": 2, "end": 2}
@@ -348,7 +346,6 @@ def _turns(wishes: list[Wish], parse: Parse, lexicon: Lexicon) -> list[int]:
     return [0 if "first" in words else 2 if "last" in words else 1 for words in behind]
 
 
-_HOW = frozenset({"how", "the", "way"})
 _NAMED = frozenset("TGSLR")
 """Roles that name a thing, a place or a person."""
 _ALONG = frozenset({"down", "up", "round", "over", "back", "home"})
@@ -374,6 +371,10 @@ def _filler(parse: Parse, span: Span, lexicon: Lexicon) -> Filler:
         start += led in ("to", "at") or led in lexicon.classes["determiners"]  # "down the hall", "up to it"
     words = tuple(token.low for token in parse.tokens[start:end])
     head = min(max(span.head, start), end - 1) - start
+    glue = next((at for at in range(len(words)) if list(words[at : at + 3]) == _THE_ONE), len(words))
+    words = (*words[:glue], *words[glue + 3 :])
+    if span.role in "TG" and (which := _which_one(parse, end)):  # "the chair, the large one"
+        words, head = (*words[:head], *which, *words[head:]), head + len(which)
     small = lexicon.classes["prepositions"] | lexicon.classes["determiners"]
     first = next((at for at, word in enumerate(words) if word not in small), None)
     if first is not None and span.role in _NAMED:
@@ -382,6 +383,17 @@ def _filler(parse: Parse, span: Span, lexicon: Lexicon) -> Filler:
         if words[head] in small or head >= stop:
             head = stop - 2 if words[stop - 1] == "of" else stop - 1
     return Filler(span.role, span.start, span.end, head, words, span.share, parse.said(start, end))
+
+
+_THE_ONE = [",", "the", "one"]
+
+
+def _which_one(parse: Parse, end: int) -> tuple[str, ...]:
+    """The words that say behind a thing which of several it is: "large" in "the chair, the large one"."""
+    low = [token.low for token in parse.tokens[end : end + 6]]
+    size = low.index("one") if "one" in low else 0
+    marked = low[:1] in ([","], ["-"], ["–"], [":"]) and low[1:2] == ["the"] and size > 2
+    return tuple(low[2:size]) if marked and all(word.isalpha() for word in low[2:size]) else ()
 
 
 def _wish(parse: Parse, verb: Verb, mine: list[Filler], lexicon: Lexicon) -> Wish:
@@ -633,7 +645,8 @@ def _left_over(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
         taken |= {*range(verb.start, end), *verb.particles}
         taken |= _leading(parse, verb, lexicon)
     for span in parse.spans:
-        taken |= set(range(span.start, span.end))
+        which = _which_one(parse, span.end)
+        taken |= set(range(span.start, span.end + (len(which) + 3 if which else 0)))
     taken |= _states(parse, lexicon) | _wanting(parse)
     taken |= {at for verb in parse.verbs for at in _opened(parse, verb)}
     if any(verb.frame == "ANSWER" for verb in parse.verbs):

@@ -214,6 +214,8 @@ class Repairer:
                 made = ChatAction(message_response="All right, I wait. Please tell me when it is done.")
             case "without":
                 made = _solved(situation, "I go on without it.", ())
+            case "done" if situation.code is FailureCode.NO_MATCH and control_of(situation.reply or ""):
+                made = _solved(situation, "I go on without it.", ())  # "go on": nobody has helped
             case "done":
                 over = situation.code in _HELPED
                 said = "I try again." if situation.code is FailureCode.FORBIDDEN else "Thank you. I go on."
@@ -250,10 +252,21 @@ class Repairer:
         things = [
             one.things[0] for one in named(tokens, situation.objects, self.lexicon) if len(one.things) == 1
         ]
+        things = things or self._lettered(situation, [token.text for token in tokens])
         if len(things) != 1 or len(words_of(reply)) > _LONGEST or not self._only_names(reply, things[0]):
             return None
         words = tuple(things[0].description.lower().split())
         return self._at_place(situation, Place("it", words, head_of(words, self.lexicon), said))
+
+    @staticmethod
+    def _lettered(situation: ErrorSituation, said: Sequence[str]) -> list[MapObject]:
+        """What is called as the place of the step, but for a letter or number: "try B" of bays A and B."""
+        last = next((_words_of(step) for step in reversed(situation.completed) if _words_of(step)), "")
+        own, marks = last.lower().split(), {word for word in said if len(word) == 1 and word.isalnum()}
+        names = {tuple(mark.lower() if len(word) == 1 else word for word in own) for mark in marks}
+        return [
+            one for one in situation.objects if tuple(one.description.lower().split()) in names - {(*own,)}
+        ]
 
     def _kept(self, situation: ErrorSituation, reply: str, made: ChatAction | None) -> ChatAction | None:
         """With a memory of where the thing is that was not found."""

@@ -106,11 +106,13 @@ def _said(reading: Reading, lexicon: Lexicon) -> frozenset[tuple[int, str, str]]
     small = lexicon.classes["prepositions"] | lexicon.classes["determiners"]
     found = set()
     for wish in reading.wishes:
-        found.add((wish.start, wish.verb, f"{wish.frame} {wish.negated}"))
-        told = sorted((f for f in wish.fillers if f.role in "TL"), key=lambda filler: filler.start)
+        put = wish.act == "told" and wish.frame in ("PUT", "BELOC")  # "I left it on the desk": it is there
+        found.add((wish.start, wish.verb, f"{'BELOC' if put else wish.frame} {wish.negated}"))
+        whole_roles = "TLG" if put else "TL"
+        told = sorted((f for f in wish.fillers if f.role in whole_roles), key=lambda filler: filler.start)
         for filler in wish.fillers:
             words = " ".join(word for word in filler.words if word not in small)
-            if filler.role not in "AMTL" and words and words not in lexicon.classes["me"]:
+            if filler.role not in f"AM{whole_roles}" and words and words not in lexicon.classes["me"]:
                 found.add((wish.start, words, filler.role))
         whole = " ".join(word for f in told for word in f.words if word not in small)
         if whole:

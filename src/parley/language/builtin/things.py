@@ -164,6 +164,11 @@ def _otherwise_called(name: Sequence[str], objects: Sequence[MapObject], lexicon
         found = [item for item in objects if not others.isdisjoint(_names(item))]
         if found:
             return found
+    for at, word in enumerate(name):  # "the big chair" is the large one
+        for other in sorted(lexicon.synonyms.get((word,), ())):
+            swapped = (*name[:at], *other, *name[at + 1 :])
+            if found := [item for item in _best(swapped, objects) if _rank_of(swapped, item) == 0]:
+                return found
     return []
 
 

@@ -186,7 +186,11 @@ def _there_yet(situation: Situation, about: str) -> str:
     done = _visible(situation.dialogue.deeds)
     if not done:
         return "I was not asked to do anything yet."
-    last = done[-1]
+    kinds = {"looks"} if about[:5] in ("check", "inspe") else {"asks_operator", "grasps", "places"}
+    alike = [deed for deed in done if kinds & {*deed.effects}] if about else done
+    if not alike:
+        return f"No. What I did last: {deed_words(done[-1])}."
+    last = alike[-1]
     if last.ending in ("done", "no"):
         here = whereabouts(situation.objects, situation.robot_pose)
         return f"Yes, that is done: {deed_words(last)}. I am {here}."
@@ -362,6 +366,8 @@ def _else(situation: Situation, about: str) -> str:
 
 def _seen_thing(situation: Situation, about: str) -> str:
     look, labels = _seen_labels(situation)
+    if _ANYTHING.match(about) is not None:
+        return _seen(situation, "")
     if look is None:
         return ""
     wanted = _stems(about)
@@ -373,6 +379,9 @@ def _seen_thing(situation: Situation, about: str) -> str:
         return f"{before[-1].told[-1]} {_when(before[-1])}"
     rest = f" I saw {listed(labels)}." if labels else ""
     return f"I did not see any there, when I looked {_at(look.unix_ms)}.{rest}"
+
+
+_ANYTHING: Final = re.compile(r"(?:any|some)thing\b")
 
 
 def _left_time(dialogue: Dialogue) -> str:
@@ -387,6 +396,10 @@ def _how_long(situation: Situation, about: str) -> str:
     dialogue, left = situation.dialogue, _steps_left(situation)
     if not left and dialogue.proposal is not None:
         return "I have not begun, so I cannot tell yet. I wait for your yes."
+    if not left and re.search(r"\b(?:far|close)\b", situation.message.lower()):
+        been = next((deed.label for deed in reversed(dialogue.deeds) if deed.moved), "")
+        near = _things(situation, been)
+        return _how_far(situation, been) if len(near) == 1 else _where(situation, about)
     if not left:
         return "Nothing is left to do."
     if dialogue.plan in ("paused", "held"):
@@ -516,6 +529,7 @@ _TOPICS: Final[dict[str, Callable[[Situation, str], str]]] = {
     "told_all": _told_all, "difference": _difference,
     "hear": lambda situation, about: "Yes, I hear you: I read every word.",
     "how_are_you": lambda situation, about: f"I am well, thank you. {_doing(situation, about)}",
+    "in_the_way": lambda situation, about: "Sorry. Tell me where I shall go.",
     "speed": lambda situation, about: _SPEED,
     "undo": lambda situation, about: f"I cannot take back what is done. {_did(situation, about)}",
     "joke": lambda situation, about: "I am no good at that, sorry: I drive, look and remember.",

@@ -122,6 +122,8 @@ def _about_itself(
     bare = plain(tokens, (situation.robot,))
     question = None if is_promised(bare, situation.catalogue) else question_of(bare)
     asked = situation.dialogue.asked
+    if not bare and not situation.question:  # nothing but its name
+        return Answer("Yes, I hear you: I read every word.")
     if question is not None and question.topic == "difference" and asked is not None:
         return Answer(f"{differences(asked.choices, situation.objects)} Which one do you mean?")
     if question is not None and (said := answer(question, situation)):
@@ -485,6 +487,7 @@ def spoken_of(
     """What "it", "there" and "her" mean when a message begins: what was named last, who was told of last."""
     orders = {order.words: order for order in situation.dialogue.orders}
     thing: MapObject | Place | None = _found(situation)
+    place: MapObject | Place | None = None
     person: Place | None = None
     for turn in reversed(situation.history[-_TURNS:]):
         if turn.role != "operator":
@@ -500,8 +503,12 @@ def spoken_of(
                 (p for p in known if not _is_called(p) and _tells_of(p, turn.content, low, bare)), None
             )
         if thing is None:
-            thing = _thing_in([*reversed(texts), turn.content], low, situation, lexicon)
-    return thing, person
+            found = _thing_in([*reversed(texts), turn.content], low, situation, lexicon)
+            if "there" in low and not named(tokenize(turn.content), situation.objects, lexicon):
+                place = place or found  # "go there" brings up nothing new
+            else:
+                thing = found
+    return thing or place, person
 
 
 def _tells_of(place: Place, text: str, low: set[str], bare: bool) -> bool:
