@@ -177,7 +177,7 @@ _UNTIL: Final = re.compile(
 )
 _FOR_NOW: Final = re.compile(
     r"(?: (?:today|tonight|for now|for the moment|at the moment|right now|now|any ?more|until further notice|"
-    r"this (?:morning|afternoon|evening)|for a while|please|täna|praegu))+$"
+    r"this (?:morning|afternoon|evening)|for a while|from now on|at all times|for good|please|täna|praegu))+$"
 )
 _LIFTED: Final = (
     re.compile(

@@ -234,3 +234,21 @@ def test_what_was_not_done_is_not_said_to_be_done() -> None:
     made = ENGINE.decide(said)
     assert isinstance(made, Answer)
     assert made.text.startswith("No.")
+
+
+@pytest.mark.parametrize(
+    "said", ["tell me when you are back at the desk", "let me know when the desk is free"]
+)
+def test_what_is_to_be_told_later_is_no_way_there_now(said: str) -> None:
+    assert isinstance(ENGINE.decide(situation(said, objects=YARD, catalogue=SHIPPED)), Ask)
+
+
+def test_what_is_to_be_remembered_is_no_picture() -> None:
+    said = "remember that the forklift parks at the desk"
+    assert isinstance(ENGINE.decide(situation(said, objects=YARD, catalogue=SHIPPED)), Remember)
+
+
+def test_a_set_is_known_by_an_irregular_plural() -> None:
+    shelves = tuple(MapObject(f"shelf_{n}", f"shelf {n}", float(n), 1.0) for n in (1, 2))
+    made = ENGINE.decide(situation("check all shelves", objects=shelves, catalogue=SHIPPED))
+    assert targets(made) == {"shelf 1", "shelf 2"}

@@ -160,9 +160,11 @@ class Builder(Doing):
 
     def _strange(self, wish: Wish) -> Ask | None:
         """Why a wish as a whole cannot be planned."""
-        logic = self._logic(wish)
-        if logic is not None:
+        if (logic := self._logic(wish)) is not None:
             return logic
+        late = next((f.text.removeprefix("whether ") for f in wish.all("K")), "")
+        if late.startswith("when ") and wish.frame == "LOOK":  # "tell me when you are there"
+            return Ask(f"I cannot tell by myself when “{late[5:]}” is. What shall I do now?")
         frame = self.lexicon.frames.get(wish.frame)
         known = {*frame.roles, *"AMPWIOE"} if frame else set()
         strange = next((filler for filler in wish.fillers if filler.role not in known), None)

@@ -101,6 +101,8 @@ def stem(word: str) -> str:
     word = word.lower().replace("’", "'")
     if len(word) > 4 and word.endswith("ies"):
         return word[:-3] + "y"
+    if word.endswith(("shelves", "loaves", "halves", "calves", "wolves", "scarves", "thieves")):
+        return word[:-3] + "f"
     if len(word) > 4 and word.endswith(("ches", "shes", "sses", "xes", "oes")):
         return word[:-2]
     return (

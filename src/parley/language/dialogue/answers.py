@@ -366,7 +366,7 @@ def _else(situation: Situation, about: str) -> str:
 
 def _seen_thing(situation: Situation, about: str) -> str:
     look, labels = _seen_labels(situation)
-    if _ANYTHING.match(about) is not None:
+    if _ANYTHING.match(about) or (look is None and _SEE.search(situation.message.lower())):
         return _seen(situation, "")
     if look is None:
         return ""
@@ -381,6 +381,7 @@ def _seen_thing(situation: Situation, about: str) -> str:
     return f"I did not see any there, when I looked {_at(look.unix_ms)}.{rest}"
 
 
+_SEE: Final = re.compile(r"\byou (?:see|seen|find|found|notice|noticed|spot|spotted)\b")
 _ANYTHING: Final = re.compile(r"(?:any|some)thing\b")
 
 

@@ -51,7 +51,9 @@ _NAME: Final = re.compile(
 _KEEP: Final = re.compile(
     r"(?:please )?(?:remember|note|keep in mind|don't forget|do not forget|memorise|memorize)\b"
 )
-_SO: Final = re.compile(rf",? that (?:[\w'-]+ )+?{_BEING.pattern}")
+_SO: Final = re.compile(
+    r",? that (?!(?:picture|photo|image|view|place|spot|one)\b|.*\bas\b)(?:[\w'-]+ ){2,}\w"
+)
 
 _WISHING: Final = re.compile(
     r"\b(?:should|shall|must|ought|has to|have to|had better|need(?:s|ed)?|necessary|want(?:s|ed)?|"
