@@ -14,6 +14,7 @@ from parley.messages.attendance import Attendance
 from parley.messages.audit import AuditEvent
 from parley.messages.chat import (
     SYSTEM_COMMANDS,
+    Aside,
     ChatAction,
     ChatFeedback,
     ChatInput,
@@ -66,6 +67,7 @@ PAYLOADS: dict[str, tuple[type[BaseModel], ...]] = {
     "/parley/rejection": (Rejection,),
     "/parley/memory_event": (MemoryEvent,),
     "/parley/reply_draft": (ReplyDraft,),
+    "/parley/aside": (Aside,),
     "/parley/chat_read": (ChatRead,),
     "/parley/press_taken": (PressTaken,),
     "/parley/incident": (Incident,),

@@ -20,6 +20,7 @@ from parley.language.llm.scripted import ScriptedLanguage
 from parley.messages import topics
 from parley.messages.chat import (
     ActionCall,
+    Aside,
     ChatAction,
     ChatFeedback,
     ChatInput,
@@ -416,6 +417,21 @@ async def test_what_a_program_says_on_and_on_is_done_once_and_told_once_but_stop
     told = sorted(feedback.message for feedback in room.observer.said[:2])
     assert told == ["I will look.", "The same comes again and again. I take it as said once."]
     assert [len(order.queue) for order in room.planner.orders] == [1, 0, 0, 0]
+
+
+async def test_what_a_robot_says_was_no_answer_is_read_in_the_persons_words_or_not_at_all(room: Room) -> None:
+    said = ChatInput(message="what is it for?", targets=("A",), type="response", id="m1", reply_to="q1")
+    question = ChatFeedback(message="Is it done?", targets=("A",), type="request", id="q1")
+    room.observer.publish(topics.CHAT_FEEDBACK, question)
+    room.observer.publish(topics.CHAT_INPUT, said)
+    aside = Aside(actor="A", reply_to="q1", id="m1", message="come here")
+    room.observer.publish(topics.ASIDE, aside.model_copy(update={"id": "invented"}))
+    room.observer.publish(topics.ASIDE, aside)
+    room.language.will("interpret", ChatAction(message_response="For the desk."))
+    await until(lambda: any(feedback.message == "For the desk." for feedback in room.observer.said))
+    assert [asked.message for what, asked in room.language.asked if what == "interpret"] == [
+        "what is it for?"
+    ]
 
 
 async def test_answer_that_nobody_waits_for_is_taken_as_an_order(room: Room) -> None:

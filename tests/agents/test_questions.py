@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from parley.agents.questions import OpenQuestions, SeenIds
-from parley.messages.chat import ChatFeedback, ChatInput
+from parley.agents.questions import OpenQuestions, SeenIds, WrongAnswers
+from parley.messages.chat import Aside, ChatFeedback, ChatInput
 
 
 def ask(text: str, *targets: str) -> ChatFeedback:
@@ -138,3 +138,44 @@ def test_only_so_many_ids_are_kept() -> None:
     assert [seen.is_new(name) for name in ("a", "b", "a", "c", "a", "", "")] == [
         True, True, False, True, True, True, True,
     ]  # fmt: skip
+
+
+SAID = ChatInput(
+    message="where is it?", targets=("A",), type="response", id="m1", reply_to="q1", author="Kim"
+)
+TOLD = Aside(actor="a", reply_to="q1", id="m1", message="where is it?")
+
+
+def test_what_was_no_answer_becomes_a_message_in_the_words_of_who_said_it_once() -> None:
+    wrong = WrongAnswers(lambda: 0.0)
+    assert wrong.on_answer(SAID) == []
+    made = wrong.on_aside(TOLD.model_copy(update={"message": "come here"}))
+    assert made is not None
+    assert (made.message, made.author, made.type, made.targets) == ("where is it?", "Kim", "request", ("a",))
+    assert (made.id, made.reply_to) == (TOLD.request_id, "q1")
+    assert wrong.on_aside(TOLD) is None
+
+
+def test_a_robot_may_find_it_before_it_is_heard_here() -> None:
+    wrong = WrongAnswers(lambda: 0.0)
+    assert wrong.on_aside(TOLD) is None
+    assert [made.message for made in wrong.on_answer(SAID)] == ["where is it?"]
+    assert wrong.on_answer(SAID) == []
+
+
+@pytest.mark.parametrize(
+    ("aside", "after_s"),
+    [
+        (TOLD.model_copy(update={"actor": "B"}), 0.0),
+        (TOLD.model_copy(update={"reply_to": "q2"}), 0.0),
+        (TOLD.model_copy(update={"id": "m2"}), 0.0),
+        (TOLD, 61.0),
+    ],
+    ids=["of another robot", "to another question", "of another message", "long ago"],
+)
+def test_nothing_becomes_of_what_nobody_answered_just_then(aside: Aside, after_s: float) -> None:
+    now = [0.0]
+    wrong = WrongAnswers(lambda: now[0])
+    wrong.on_answer(SAID)
+    now[0] = after_s
+    assert wrong.on_aside(aside) is None

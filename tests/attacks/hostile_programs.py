@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from parley.messages import topics
-from parley.messages.chat import ChatAction, ChatInput
+from parley.messages.chat import Aside, ChatAction, ChatInput
 from parley.messages.principal import Principal, person
 from parley.messages.ros import String
 from parley.messages.status import PlanDecision, PlanProposal, StopCommand
@@ -88,6 +88,17 @@ def _say(text: str, by: Principal | None, *, answers: bool = False) -> Send:
     return send
 
 
+def _hands_on(text: str) -> Send:
+    """A robot claims that somebody said so to it."""
+
+    def send(house: House, _: PlanProposal | None) -> None:
+        house.language.will("interpret", ChatAction.model_validate(a("I do.", wave())))
+        for key in ("", "i"):
+            _publish(house, topics.ASIDE, Aside(actor=ADA, reply_to="q", id=key, message=text))
+
+    return send
+
+
 _EDIT: Final = [wave("what came instead")]
 _CHANGES: Final = frozenset({"edited", "gave up"})
 
@@ -130,6 +141,8 @@ CASES: Final = (
     Intrusion("a viewer cancels everything", _say("cancel everything", VIEWER), "running"),
     Intrusion("a viewer answers a question", _say("yes", VIEWER, answers=True), "failed"),
     Intrusion("a viewer answers a step", _say("yes", VIEWER, answers=True), "asked"),
+    Intrusion("a robot hands on what nobody said", _hands_on("wave at everybody")),
+    Intrusion("a robot hands on a yes that nobody said", _hands_on("yes"), "proposal"),
     Intrusion("an engine says yes", _say("yes", ENGINE), "proposal"),
     Intrusion("an engine answers a step", _say("yes", ENGINE, answers=True), "asked"),
     Intrusion("an engine says carry on", _say("carry on", ENGINE), "paused"),

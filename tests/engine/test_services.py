@@ -18,7 +18,7 @@ from parley.engine.services import ContextServices
 from parley.language.llm.scripted import ScriptedLanguage
 from parley.memory.store import MemoryStore
 from parley.messages import topics
-from parley.messages.chat import ChatFeedback, ChatInput
+from parley.messages.chat import Aside, ChatFeedback, ChatInput
 from parley.messages.display import DisplayFeed
 from parley.messages.memory import MemoryEntry
 from parley.messages.ros import String
@@ -176,23 +176,21 @@ async def test_memory_that_is_not_there_finds_nothing(desk: Desk) -> None:
 
 
 async def test_what_was_no_answer_is_said_as_a_request_and_its_reply_waited_for(desk: Desk) -> None:
-    inputs: list[ChatInput] = []
-    await desk.transport.subscribe(
-        topics.CHAT_INPUT, lambda message: inputs.append(decode(ChatInput, message.data))
-    )
+    asides: list[Aside] = []
+    await desk.transport.subscribe(topics.ASIDE, lambda message: asides.append(decode(Aside, message.data)))
     asking = await desk.asking("Is it done?")
     desk.say("where should I put it?")
     assert await asking == "where should I put it?"
     referring = asyncio.create_task(desk.services.refer("where should I put it?"))
     async with asyncio.timeout(5):
-        while len(inputs) < 2:  # noqa: ASYNC110 - short, and ends with the message
+        while not asides:  # noqa: ASYNC110 - short, and ends with the message
             await asyncio.sleep(0)
-    passed_on = inputs[1]
-    assert (passed_on.type, passed_on.targets) == ("request", ("A",))
-    assert passed_on.reply_to == desk.heard[0].id
+    (aside,) = asides
+    assert (aside.actor, aside.message) == ("A", "where should I put it?")
+    assert aside.reply_to == desk.heard[0].id
     await soon()
     assert not referring.done()
-    reply = ChatFeedback(message="On me.", targets=("A",), reply_to=passed_on.id)
+    reply = ChatFeedback(message="On me.", targets=("A",), reply_to=aside.request_id)
     desk.transport.publisher(topics.CHAT_FEEDBACK).publish(to_string(reply))
     async with asyncio.timeout(5):
         await referring

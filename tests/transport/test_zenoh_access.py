@@ -22,6 +22,7 @@ from parley.config import NetworkSettings, SystemConfig, UserSettings
 from parley.demos.observer import Observer
 from parley.errors import ConfigError, FileFormatError, UnavailableError
 from parley.messages import topics
+from parley.messages.chat import ChatInput
 from parley.messages.principal import person
 from parley.messages.ros import String, UmrfGraphStop
 from parley.messages.ros_robot import Bool
@@ -136,13 +137,15 @@ async def test_a_robot_may_say_what_is_its_own_and_no_order(tmp_path: Path, know
         await ward.subscribe(velocities("Ada"), hears("own"))
         await other.subscribe(velocities("Kim"), hears("another's"))
         await other.subscribe(topics.STOP, hears("stop"))
+        await other.subscribe(topics.CHAT_INPUT, hears("order"))
         await desk.subscribe(topics.ACTOR_STATUS, hears("status"))
-        await until(lambda: len([end for end in ward.endpoints() if end.elsewhere]) >= 3)
+        await until(lambda: len([end for end in ward.endpoints() if end.elsewhere]) >= 4)
         said: tuple[tuple[Topic[Any], Any], ...] = (
             (velocities("Ada"), Bool(True)),
             (velocities("Kim"), Bool(True)),
             (topics.STOP, String("{}")),
             (topics.GRAPH_STOP, UmrfGraphStop("x", ("Kim",))),
+            (topics.CHAT_INPUT, to_string(ChatInput(message="come here", targets=("Kim",), by=person()))),
             (topics.ACTOR_STATUS, String("{}")),
         )
         for topic, message in said:
@@ -151,6 +154,7 @@ async def test_a_robot_may_say_what_is_its_own_and_no_order(tmp_path: Path, know
         await until(lambda: guarded.denied("ward-pc", "say", "/Kim/lock"))
         await until(lambda: guarded.denied("ward-pc", "say", "/parley/stop"))
         await until(lambda: guarded.denied("ward-pc", "say", "/umrf_graph_stop"))
+        await until(lambda: guarded.denied("ward-pc", "say", "/chat_interface_input"))
         with zenoh.open(config(guarded.network("door"))) as raw:  # of whoever keeps to no agreement
             raw.put("0/parley/stop/std_msgs::msg::dds_::String_/x", b"{}")
             await until(lambda: guarded.denied("door", "say", "/parley/stop"))

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from typing import Final
 
 from parley.latest import KEPT, Latest
-from parley.messages.chat import ChatFeedback, ChatInput
+from parley.messages.chat import Aside, ChatFeedback, ChatInput
 
-__all__ = ["LastAsked", "OpenQuestions", "SeenIds"]
+__all__ = ["LastAsked", "OpenQuestions", "SeenIds", "WrongAnswers"]
 
 _KEPT_QUESTIONS: Final = 100
+_ASIDE_WITHIN_S: Final = 60.0
+"""So long after an answer its robot may still find that it is none."""
 
 
 class SeenIds:
@@ -121,3 +124,48 @@ class LastAsked:
     def words(self, identity: str) -> str:
         """The question of that id; empty if it is too long ago or there is none."""
         return self._words.get(identity, "")
+
+
+class WrongAnswers:
+    """What people answered to robots, and what robots found to be no answer: both make a message of its own.
+
+    Its words are those that a person was heard to say; each counts once, and not long after.
+
+    Args:
+        now_s: The wall's time.
+    """
+
+    def __init__(self, now_s: Callable[[], float]) -> None:
+        self._now_s = now_s
+        self._answers: Latest[tuple[str, str], tuple[ChatInput, float]] = Latest(_KEPT_QUESTIONS)
+        self._early: Latest[tuple[str, str], Aside] = Latest(_KEPT_QUESTIONS)
+        """What is told of before it is heard here."""
+
+    def on_answer(self, said: ChatInput) -> list[ChatInput]:
+        """A person answers; the messages that robots already took it for."""
+        keys = [(_key(target), said.id or said.message) for target in said.targets]
+        for key in keys:
+            self._answers[key] = said, self._now_s()
+        return [
+            made for key in keys if (early := self._early.pop(key, None)) and (made := self.on_aside(early))
+        ]
+
+    def on_aside(self, aside: Aside) -> ChatInput | None:
+        """A robot found an answer to be none; the message that it is, if a person said so."""
+        key = _key(aside.actor), aside.id or aside.message
+        said, at_s = self._answers.pop(key, (None, 0.0))
+        if said is None:
+            self._early[key] = aside
+        if (
+            said is None
+            or said.reply_to not in ("", aside.reply_to)
+            or self._now_s() - at_s > _ASIDE_WITHIN_S
+        ):
+            return None
+        changes = {
+            "type": "request",
+            "targets": (aside.actor,),
+            "id": aside.request_id,
+            "reply_to": aside.reply_to,
+        }
+        return said.model_copy(update=changes)

@@ -19,7 +19,7 @@ from parley.gate.table import Effect, verdict
 from parley.latest import Latest
 from parley.memory.client import recall
 from parley.messages import topics
-from parley.messages.chat import ChatFeedback, ChatImage, ChatInput
+from parley.messages.chat import Aside, ChatFeedback, ChatImage, ChatInput
 from parley.messages.display import DisplayFeed
 from parley.messages.memory import AddToMemory, MemoryBody, MemoryEntry
 from parley.messages.principal import Principal
@@ -48,7 +48,7 @@ class ContextServices:
         self._subscription: Subscription | None = None
 
     async def __aenter__(self) -> Self:
-        for topic in (topics.CHAT_FEEDBACK, topics.CHAT_INPUT, topics.DISPLAY_FEED, topics.ADD_TO_MEMORY):
+        for topic in (topics.CHAT_FEEDBACK, topics.ASIDE, topics.DISPLAY_FEED, topics.ADD_TO_MEMORY):
             self._publishers[topic.name] = self._transport.publisher(topic)
         self._subscription = await self._transport.subscribe(topics.CHAT_INPUT, self._on_chat_input)
         return self
@@ -105,9 +105,10 @@ class ContextServices:
 
     async def refer(self, reply: str) -> None:
         """See `Operator.refer`."""
-        said = self._answers.get(reply) or ChatInput(message=reply, targets=(self._actor,))
-        message_id = f"{said.id or uuid.uuid4().hex}~aside"
-        changes = {"type": "request", "targets": (self._actor,), "id": message_id}
+        said = self._answers.get(reply)
+        if said is None:
+            return  # nobody said so
+        aside = Aside(actor=self._actor, reply_to=said.reply_to, id=said.id, message=reply)
         replied = asyncio.Event()
 
         def hear(message: String) -> None:
@@ -115,12 +116,12 @@ class ContextServices:
                 feedback = decode(ChatFeedback, message.data)
             except InvalidMessageError:
                 return  # whoever shows it to people refuses it
-            if feedback.reply_to == message_id and feedback.type in ("response", "error"):
+            if feedback.reply_to == aside.request_id and feedback.type in ("response", "error"):
                 replied.set()
 
         subscription = await self._transport.subscribe(topics.CHAT_FEEDBACK, hear)
         try:
-            self._publishers[topics.CHAT_INPUT.name].publish(to_string(said.model_copy(update=changes)))
+            self._publishers[topics.ASIDE.name].publish(to_string(aside))
             with contextlib.suppress(TimeoutError):
                 async with asyncio.timeout(_REPLY_WITHIN_S):
                     await replied.wait()

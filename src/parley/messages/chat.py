@@ -19,6 +19,7 @@ from parley.messages.rules import Rule
 __all__ = [
     "SYSTEM_COMMANDS",
     "ActionCall",
+    "Aside",
     "ChatAction",
     "ChatFeedback",
     "ChatImage",
@@ -115,6 +116,27 @@ class ReplyDraft(Payload):
     """`id` of the operator's message that is answered."""
     targets: tuple[str, ...] = ()
     message: ShownText = ""
+
+
+class Aside(Payload):
+    """`/parley/aside`: a person's answer was none, and is to be taken as a message of its own.
+
+    It says nothing in anybody's name: what counts is what the chat interface heard from the person.
+    """
+
+    actor: str
+    """The robot that had asked."""
+    reply_to: str
+    """`id` of its question."""
+    id: str = ""
+    """Of the answer; empty: it had none."""
+    message: str
+    """The answer, to know one without an id by."""
+
+    @property
+    def request_id(self) -> str:
+        """`id` of the message that becomes of it."""
+        return f"{self.id or self.reply_to}~aside"
 
 
 class ChatRead(Payload):

@@ -100,6 +100,7 @@ STOP_REPORT = _string("/parley/stop_report", kept=100)
 REJECTION = _string("/parley/rejection", kept=100)
 SYNC = _string("/parley/sync")
 MEMORY_EVENT = _string("/parley/memory_event", kept=100)
+ASIDE = _string("/parley/aside")
 REPLY_DRAFT = _string("/parley/reply_draft", depth=1)
 CHAT_READ = _string("/parley/chat_read", latched=True, depth=100)
 PRESS_TAKEN = _string("/parley/press_taken", latched=True, depth=100)
@@ -130,7 +131,7 @@ ALL_TOPICS: tuple[Topic[Any], ...] = (
     DISPLAY_FEED, GRAPH_START, GRAPH_MODIFY, GRAPH_PAUSE, GRAPH_PAUSE_TEMOTO, GRAPH_RESUME, GRAPH_STOP,
     GRAPH_FEEDBACK, ACTOR_STATUS, GRAPH_EVENTS, PLAN, PLAN_DECISION, STEP, STOP, STOP_REPORT, REJECTION, SYNC,
     MEMORY_EVENT, REPLY_DRAFT, CHAT_READ, PRESS_TAKEN, INCIDENT, MAP_VIEW, AUDIT, RULING, ATTENDANCE,
-    RULES_IN_FORCE, PLACES_KEPT, MISSIONS, PASSAGES, NOTICE,
+    RULES_IN_FORCE, PLACES_KEPT, MISSIONS, PASSAGES, NOTICE, ASIDE,
 )  # fmt: skip
 ALL_SERVICES = (GET_MEMORY, GRAPH_GET, GET_INCIDENTS, GET_MAP, GET_AUDIT, RULES, PLACES)
 

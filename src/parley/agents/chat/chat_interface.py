@@ -30,7 +30,7 @@ from parley.agents.planner.asking import SHALL_I, Offered, wish_of
 from parley.agents.planner.orders import no_robot
 from parley.agents.planner.steps import LATCHED
 from parley.agents.presence import ACQUAINTED_S, Presence, linked_to
-from parley.agents.questions import SeenIds
+from parley.agents.questions import SeenIds, WrongAnswers
 from parley.agents.thinking import PATIENCE_S, Thinking
 from parley.clock import Clock
 from parley.errors import FailureCode
@@ -44,7 +44,7 @@ from parley.language.dialogue.taught import taught_in, with_names
 from parley.memory.client import recall
 from parley.memory.missions import MissionStore
 from parley.messages import topics
-from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, ChatRead, SystemCommand
+from parley.messages.chat import Aside, ChatAction, ChatFeedback, ChatInput, ChatRead, SystemCommand
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.memory import AddToMemory, MemoryBody, MemoryEntry, MemoryEvent, RemoveMemory
 from parley.messages.principal import Principal
@@ -135,6 +135,7 @@ class ChatInterface(Node):
         self._mailboxes: Mailboxes[str] = Mailboxes(self._on_defect)
         self._offered, self._finishing = Offered(), Finishing(clock.now_s)
         self._seen_ids, self._repeats = SeenIds(), Repeats()
+        self._wrong_answers = WrongAnswers(clock.now_s)
         self._holds = Holds(lambda command: self.publish(topics.STOP, command))
         self._confirmations = Confirmations()
         self._recollections = Recollections(self, clock, self._remember, self._presence.names)
@@ -178,6 +179,7 @@ class ChatInterface(Node):
         await self._answering.open()
         await self._board.open()
         await self._finds.open()
+        await self.subscribe(topics.ASIDE, Aside, self._on_aside)
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input, in_charge=True)
         self.publish(topics.CHAT_READ, ChatRead())
         self.spawn(self._presence.watch(), name="presence")
@@ -214,6 +216,15 @@ class ChatInterface(Node):
         finally:
             self._holds.end(held)
 
+    def _on_aside(self, aside: Aside) -> None:
+        if (made := self._wrong_answers.on_aside(aside)) is not None:
+            self.publish(topics.CHAT_INPUT, made)
+
+    def _keep_answer(self, said: ChatInput) -> None:
+        if said.type == "response" and verdict(said.who, Effect.ANSWER) == "allow":
+            for made in self._wrong_answers.on_answer(said):
+                self.publish(topics.CHAT_INPUT, made)
+
     def _read(self, said: ChatInput) -> None:
         if not self._seen_ids.is_new(said.id) or self._is_repeated(said):
             return
@@ -224,6 +235,7 @@ class ChatInterface(Node):
         if control not in _HALTING and verdict(said.who, Effect.SPEAK) != "allow":
             self._only_stops(said)
             return
+        self._keep_answer(said)
         if control not in _HALTING and self._questions.is_late(said):
             self._say(said.targets, texts.settled(said.message), "response", said.id)
             return

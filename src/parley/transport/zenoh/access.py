@@ -59,9 +59,9 @@ class Allowed:
 
 _ROBOT: Final = Allowed(
     says=_names(
-        topics.ACTOR_STATUS, topics.ADD_TO_MEMORY, topics.CHAT_FEEDBACK, topics.CHAT_INPUT,
-        topics.DISPLAY_FEED, topics.GRAPH_EVENTS, topics.GRAPH_FEEDBACK, topics.MAP_VIEW, topics.NOTICE,
-        topics.REJECTION, topics.STOP_REPORT, topics.SYNC,
+        topics.ACTOR_STATUS, topics.ADD_TO_MEMORY, topics.ASIDE, topics.CHAT_FEEDBACK, topics.DISPLAY_FEED,
+        topics.GRAPH_EVENTS, topics.GRAPH_FEEDBACK, topics.MAP_VIEW, topics.NOTICE, topics.REJECTION,
+        topics.STOP_REPORT, topics.SYNC,
     ),
     hears=_names(
         topics.ACTOR_STATUS, topics.CHAT_FEEDBACK, topics.CHAT_INPUT, topics.GRAPH_MODIFY, topics.GRAPH_PAUSE,
@@ -72,8 +72,7 @@ _ROBOT: Final = Allowed(
     asks=_names(topics.GET_MEMORY),
     answers=_names(topics.GRAPH_GET),
 )  # fmt: skip
-"""An engine: it tells what becomes of plans and hands on what people say beside an answer; its own names come
-on top."""
+"""An engine: it tells what becomes of plans, and says nothing in a person's name; its own come on top."""
 _AGENT: Final = Allowed(
     says=(*_SHARED, f"{_FEEDS}/{_ANY}"),
     hears=(*_SHARED, *_OF_ROBOTS),
