@@ -13,6 +13,7 @@ import pytest
 from typer.testing import CliRunner
 
 from parley.cli import command_line
+from parley.cli.node import run_system
 from parley.cli.robot import EMPTY_FLOOR
 from parley.clock import WallClock
 from parley.config import NetworkSettings, SystemConfig, UserSettings
@@ -181,6 +182,31 @@ async def test_the_doctor_says_who_is_not_let_in_and_so_does_a_client_that_begin
         with pytest.raises(UnavailableError, match=f"nobody at {at} answers and lets this in; parley doctor"):
             async with transport_of(SystemConfig(network=client)):
                 pass
+
+
+@pytest.mark.parametrize("let_in", [True, False])
+async def test_a_peer_that_is_not_let_in_says_so_and_does_not_say_that_robots_hear_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], let_in: bool
+) -> None:
+    at, silent = (f"tcp/127.0.0.1:{free_port()}" for _ in range(2))
+    for file, text in {"users": "desk:right\n", "password": "right" if let_in else "wrong"}.items():
+        (tmp_path / file).write_text(text, encoding="utf-8")
+    door = NetworkSettings(listen=(at,), interface="", users=tmp_path / "users")
+    user = UserSettings(name="desk", password_file=tmp_path / "password")
+    peer = NetworkSettings(connect=(at, silent), interface="", user=user)
+    shown = ""
+    async with transport_of(SystemConfig(network=door)):
+        system = System(None, SystemConfig(network=peer, data_dir=tmp_path / "data"), part="agents")
+        running = asyncio.create_task(run_system(system))
+        while "Ctrl-C" not in shown:
+            await asyncio.sleep(0.05)
+            out, err = capsys.readouterr()
+            shown += out + err
+        running.cancel()
+        await asyncio.gather(running, return_exceptions=True)
+    assert ("Robots can be talked to.\n" in shown) == let_in
+    assert (f"{at} answers, and does not let the user 'desk' in. It is tried on." in shown) == (not let_in)
+    assert silent not in shown
 
 
 def test_the_doctor_says_whether_others_can_be_looked_for(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -11,7 +11,7 @@ from typing import Final
 from parley.config import NetworkSettings, TlsSettings
 from parley.findings import Finding
 
-__all__ = ["NOT_OURS", "examine_door"]
+__all__ = ["ABSENT", "NOT_OURS", "examine_door"]
 
 CONNECTS_WITHIN_S: Final = 2.0
 REFUSES_WITHIN_S: Final = 0.5
@@ -20,7 +20,7 @@ NOT_OURS: Final = (
     "Look whether it is a router or peer of ours, of the same version and with the same tls, and whether its "
     "`users` have this name and password: without `user` here it may ask for one."
 )
-_ABSENT: Final = "Start it there, or mend the address, or let it through the firewall."
+ABSENT: Final = "Start it there, or mend the address, or let it through the firewall."
 _OWN: Final = (
     "Mend `tls`. “Several processes, several machines” says under “Who gets in” how its files are made."
 )
@@ -48,7 +48,7 @@ def examine_door(address: str, network: NetworkSettings) -> Finding:
                 return _wrong(f"{address} answers encrypted only", _BOTH)
             return Finding("network", "ok", f"{address} answers")
     except (OSError, ValueError) as error:
-        return _wrong(f"{address} does not answer: {error}", _ABSENT)
+        return _wrong(f"{address} does not answer: {error}", ABSENT)
 
 
 def _wrong(text: str, mend: str) -> Finding:

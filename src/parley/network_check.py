@@ -11,7 +11,7 @@ from typing import Final
 
 from parley.clock import WallClock
 from parley.config import NetworkSettings, SystemConfig
-from parley.door_check import NOT_OURS, examine_door
+from parley.door_check import ABSENT, NOT_OURS, examine_door
 from parley.errors import InvalidMessageError, MissingExtraError, ParleyError, UnavailableError
 from parley.findings import Finding
 from parley.messages import topics
@@ -21,7 +21,7 @@ from parley.messages.wire import decode
 from parley.network import transport_of
 from parley.transport.base import Transport
 
-__all__ = ["examine_network"]
+__all__ = ["closed_doors", "examine_network"]
 
 LISTENS_S: Final = 3.0
 """Robots tell every second that they are there."""
@@ -56,7 +56,7 @@ def examine_network(network: NetworkSettings | None) -> Iterable[Finding]:
     except ParleyError as error:
         yield Finding("network", "wrong", str(error), "See ROS 2 above.")
         return
-    doors = [_entered(examine_door(address, network), address, network) for address in network.connect]
+    doors = _doors(network)
     yield from doors
     if network.role == "client" and doors and all(door.state == "wrong" for door in doors):
         return  # there is no other way in
@@ -65,6 +65,17 @@ def examine_network(network: NetworkSettings | None) -> Iterable[Finding]:
     except ParleyError as error:
         mend = "See above." if network.ros2 is not None or _NO_INTERFACE in str(error) else NOT_OURS
         yield Finding("network", "wrong", str(error), mend)
+
+
+def closed_doors(network: NetworkSettings) -> list[Finding]:
+    """Where somebody answers and does not let a peer in; who is not there yet is no such."""
+    if network.role != "peer" or network.ros2 is not None or network.rosbridge is not None:
+        return []  # a client does not begin then
+    return [door for door in _doors(network) if door.state == "wrong" and door.remedy != ABSENT]
+
+
+def _doors(network: NetworkSettings) -> list[Finding]:
+    return [_entered(examine_door(address, network), address, network) for address in network.connect]
 
 
 def _entered(door: Finding, address: str, network: NetworkSettings) -> Finding:

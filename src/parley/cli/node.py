@@ -25,6 +25,7 @@ from parley.config import NetworkSettings, SystemConfig
 from parley.errors import ConfigError
 from parley.extras import needs
 from parley.network import transport_of
+from parley.network_check import closed_doors
 from parley.terminal import TerminalClient
 
 if TYPE_CHECKING:
@@ -134,9 +135,21 @@ async def run_system(system: System) -> None:
     """Open it, say so, and stay until somebody ends it."""
     async with system:
         who = ", ".join(system.robot_names)
-        typer.echo(f"{who} can be planned for." if who else "Robots can be talked to.")
+        ready = f"{who} can be planned for" if who else "Robots can be talked to"
+        typer.echo(f"{ready}{' by others who are let in' if await _is_shut_out(system.config) else ''}.")
         typer.echo("Ctrl-C ends it.")
         await asyncio.Event().wait()
+
+
+async def _is_shut_out(settings: SystemConfig) -> bool:
+    """Whether somebody this is to connect to does not let it in: a peer goes on, and tries for ever."""
+    if settings.network is None:
+        return False
+    with needs("zenoh"):
+        closed = await asyncio.to_thread(closed_doors, settings.network)
+    for door in closed:
+        typer.echo(f"{door.text}. It is tried on. {door.remedy}", err=True)
+    return bool(closed)
 
 
 async def _route(settings: SystemConfig) -> None:
@@ -156,6 +169,7 @@ async def _route(settings: SystemConfig) -> None:
 
 async def _chat(settings: SystemConfig, lang: str | None) -> None:
     async with transport_of(settings, node="parley_terminal") as transport:
+        await _is_shut_out(settings)
         broken_off = await TerminalClient(transport, lang=lang).run()
     if broken_off:
         raise typer.Exit(128 + signal.SIGINT)
@@ -170,4 +184,5 @@ async def _serve(settings: SystemConfig, page: dict[str, object], *, port_is_wis
         transport_of(settings, node="parley_web") as transport,
         WebServer(transport, WebConfig.of(settings, **page), port_is_wish=port_is_wish) as server,
     ):
+        await _is_shut_out(settings)
         await serve_until_interrupted(server, opens=opens)
