@@ -26,6 +26,7 @@ from parley.messages.topics import QoS, Service, Topic
 from parley.network import transport_of
 from parley.transport.base import Endpoint
 from parley.transport.rosbridge import RosbridgeServer, RosbridgeTransport
+from parley.transport.rosbridge.graph import Graph
 from parley.transport.rosbridge.values import Codec
 from tests.transport.backends import free_port, until
 
@@ -273,6 +274,19 @@ async def test_it_is_known_which_ends_are_of_others() -> None:
         await until(lambda: len([end for end in here.endpoints() if end.name == "/bridge/talk"]) == 2)
         told = {end.role: end.elsewhere for end in here.endpoints() if end.name == "/bridge/talk"}
         assert told == {"subscription": True, "publisher": False}
+
+
+async def test_a_bridge_that_does_not_tell_who_is_there_is_logged_once_for_each_link() -> None:
+    async def nobody(*_: object) -> Any:
+        raise UnavailableError("no rosapi")
+
+    graph = Graph()
+    with structlog.testing.capture_logs() as told:
+        for _ in range(3):
+            await graph.look(nobody)
+        graph.lost()
+        await graph.look(nobody)
+    assert len(told) == 2
 
 
 async def test_ros_1_gets_its_own_names_of_types_and_has_no_actions() -> None:

@@ -43,7 +43,8 @@ class Graph(EndpointGraph):
         self._service_types: dict[str, str] = {}
         self._changes = 0
         self.known = False
-        """Whether the bridge tells who is there; without its `rosapi` it does not."""
+        """Whether the bridge tells who is there; not without `rosapi`, which the log says once."""
+        self._is_told = False
 
     def ends(self) -> Iterable[Endpoint]:
         """See `EndpointGraph.ends`; an end that others have as well counts as ours: no bridge tells."""
@@ -64,7 +65,7 @@ class Graph(EndpointGraph):
 
     def lost(self) -> None:
         """The bridge is gone, and with it everybody else."""
-        self.known, self._changes = False, self._changes + 1
+        self.known, self._is_told, self._changes = False, False, self._changes + 1
         self._service_types.clear()
         self._see(frozenset())
 
@@ -74,14 +75,14 @@ class Graph(EndpointGraph):
         try:
             found = await self._find(ask)
         except UnavailableError:
-            if self.known or not changes:
+            if not self._is_told:
                 log.info("the bridge does not tell who is there: its rosapi node does not run")
-            self.known, found = False, frozenset()
+            self.known, self._is_told, found = False, True, frozenset()
         except TransportError as error:  # it was asked too much, or went: the next look is soon
             log.info("the bridge did not tell who is there", why=str(error))
             return
         else:
-            self.known = True
+            self.known, self._is_told = True, False
         if changes == self._changes:
             self._see(found)
 
