@@ -124,6 +124,15 @@ async def test_names_that_differ_are_found_and_named() -> None:
     assert seen["Nav2"].remedy == "Actions that are there: /A/navigate_to_pose; write one as `action`."
 
 
+async def test_what_is_there_and_silent_is_not_sent_to_where_it_is() -> None:
+    async with robot("zenoh") as (_, far, file, network):
+        silent = replace(TOPICS, odom="mute")
+        far.publisher(TOPICS.topic("mute", ros_robot.Odometry))
+        seen = await found(file.model_copy(update={"topics": silent}), network)
+    assert (seen["odometry"].state, "nothing on /A/mute" in seen["odometry"].text) == ("wrong", True)
+    assert "nothing comes" in seen["odometry"].remedy
+
+
 async def test_a_base_of_which_nobody_knows_what_it_takes_is_told() -> None:
     async with robot("zenoh") as (_, _, file, network):
         assert network is not None

@@ -37,6 +37,10 @@ _NETWORK: Final = "Look at `network` of the settings (--config): what is said of
 _BRIDGE: Final = (
     "Start it on the robot: ros2 launch rosbridge_server rosbridge_websocket_launch.xml; or mend `address`."
 )
+_SILENT: Final = (
+    "Somebody would tell it there, and nothing comes: look whether it does (ros2 topic hz), and into the log "
+    "of rosbridge, which needs the packages with the robot's messages."
+)
 _LOCK: Final = "Give twist_mux the lock of examples/twist_mux.yaml."
 _NTP: Final = "Let both set their clocks by the network, e.g. with chrony (`chronyc makestep`)."
 
@@ -139,11 +143,13 @@ class _Look:
     def _at(self, name: str) -> str:
         return absolute(self._topics.name(name))
 
-    def _told_elsewhere(self, ros_type: str, setting: str) -> str:
+    def _told_elsewhere(self, ros_type: str, setting: str, at: str) -> str:
         """Where else somebody tells that, as a remedy."""
         there = sorted(
             {end.name for end in self._ends if end.role == "publisher" and end.ros_type == ros_type}
         )
+        if at in there:
+            return _SILENT
         if not there:
             return "Start the robot's driver, or look at its namespace and domain."
         return (
@@ -171,7 +177,7 @@ class _Look:
         if self._topics.odom in self._heard:
             return Finding("odometry", "ok", f"told on {at}")
         text = f"nothing on {at} in {LISTENS_S:g} s, so that the robot counts as gone"
-        return Finding("odometry", "wrong", text, self._told_elsewhere("nav_msgs/msg/Odometry", "odom"))
+        return Finding("odometry", "wrong", text, self._told_elsewhere("nav_msgs/msg/Odometry", "odom", at))
 
     def _place(self) -> Finding:
         """Where it is on the map, by frames or by its localisation."""
@@ -215,7 +221,7 @@ class _Look:
             else:
                 text = f"none on {at}: one has to come with the place (--world)"
                 yield Finding(
-                    "map", "unused", text, self._told_elsewhere("nav_msgs/msg/OccupancyGrid", "map")
+                    "map", "unused", text, self._told_elsewhere("nav_msgs/msg/OccupancyGrid", "map", at)
                 )
 
     def _senses(self) -> Iterator[Finding]:
@@ -231,7 +237,7 @@ class _Look:
             if any(end.role == "publisher" and end.name == at for end in self._ends):
                 yield Finding(setting, "ok", f"told on {at}")
                 continue
-            mend = self._told_elsewhere(kinds[name], setting)
+            mend = self._told_elsewhere(kinds[name], setting, at)
             mend = f'{mend} If it has none: {setting}: ""'
             yield Finding(setting, "missing", f"nobody tells it on {at}", mend)
 
