@@ -16,7 +16,7 @@ from parley.language.base import Language
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.llm.scripted import ScriptedLanguage
 from parley.messages import topics
-from parley.messages.chat import ChatAction, ChatFeedback, SystemCommand
+from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.principal import person
 from parley.messages.status import ActorStatus, PoseInfo, StopCommand
 from parley.messages.team import WAITS_FOR, MissionList, MissionPart
@@ -164,9 +164,37 @@ async def test_whoever_hears_that_all_shall_stop_all_do() -> None:
         await home.say("All robots stop now", "Spot")
         for robot in ROBOTS:
             await home.state("paused", robot)
+        own = ChatInput(message="stop", targets=("Leo",), by=person("Kim"), id="kim")
+        home.observer.publish(topics.CHAT_INPUT, own)
+        await home.observer.until(
+            lambda: any(said.reply_to == "kim" for said in home.observer.said), timeout_s=PATIENCE_S
+        )
         going = await home.say("carry on, all of you", "Spot")
-        assert going.message.endswith("That lets nobody but me go on; Leo, TIAGo still stands.")
+        assert going.message.endswith(
+            "That lets nobody but those go on whom you have stopped; Leo still stands."
+        )
+        await home.state("running", "TIAGo")
         assert home.observer.state("Leo") == "paused"
+
+
+async def test_some_stop_and_others_go_on_as_one_says_it_of_them() -> None:
+    async with hall(speed=10.0) as home:
+        await home.say("everybody back to the dock", "Spot")
+        for robot in ROBOTS:
+            await home.state("running", robot)
+        await told(home, "Everyone stop. Only Leo goes on.", "Spot")
+        for robot in ("Spot", "TIAGo"):
+            await home.state("paused", robot)
+        assert home.observer.state("Leo") == "running"
+        await told(home, "Spot goes on, the others wait.", "Spot")
+        await home.state("paused", "Leo")
+        await home.state("running", "Spot")
+        await told(home, "Everyone except Spot, carry on.", "Spot")
+        for robot in ROBOTS:
+            await home.state("running", robot)
+        await told(home, "tell TIAGo to stop", "Leo")
+        await home.state("paused", "TIAGo")
+        assert {home.observer.state("Spot"), home.observer.state("Leo")} == {"running"}
 
 
 async def test_who_calls_the_mission_off_drops_all_its_parts_and_nothing_else() -> None:

@@ -51,7 +51,6 @@ def test_sentences_of_the_data_are_read_as_it_says(kind: str, say: str) -> None:
             [Part("all", "go to the dock", without=("Ada", "Kim"))],
         ),
         ("don't send Kim. Check all boxes between you", [Part("all", "Check all boxes", without=("Kim",))]),
-        ("only Ada goes on, the rest can stop", [Part("rest", "", without=("Ada",), stays=True)]),
         (
             "Ada takes box 2, the others look at box 3",
             [

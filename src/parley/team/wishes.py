@@ -176,9 +176,6 @@ class _Words:
 
     def _read(self, text: str, *, asks: bool, alone: bool) -> TeamWish | None:
         """How work is spread, or spread otherwise than before."""
-        if found := self._match(self.of("only"), text):
-            on = self._called(" ".join(filter(None, found.groups())))
-            return TeamWish("parts", (Part("rest", "", without=on, stays=True),))
         if self._match(self.of("swapping"), text):
             named = self._called(text)
             two = len(named) in (0, 2)

@@ -62,12 +62,14 @@ from parley.messages.status import (
     StopReport,
 )
 from parley.sentences import sentence, together
+from parley.team.halting import halting
 from parley.team.outlook import Survey
 from parley.transport.base import Transport
 from parley.world.object_map import MapObject
 
 __all__ = ["ChatInterface"]
 
+STAND_ON: Final = "That lets nobody but those go on whom you have stopped; {robots} still stands."
 _MISSION: Final = "mission"
 _AGAIN: Final = {"again", "retry"}
 _REPEATING: Final = {"again", "once", "another"}
@@ -236,8 +238,7 @@ class ChatInterface(Node):
             self._only_stops(said)
             return
         self._keep_answer(said)
-        if control not in _HALTING and self._questions.is_late(said):
-            self._say(said.targets, texts.settled(said.message), "response", said.id)
+        if self._tells_apart(said) or (control not in _HALTING and self._is_late(said)):
             return
         if control is None and said.type == "response" and not said.targets and self._questions.robots():
             self._questions.on_input(said)
@@ -278,6 +279,12 @@ class ChatInterface(Node):
                 hear.append((target, question))
         self._hear_all(hear, said)
         self._questions.on_input(said)
+
+    def _is_late(self, said: ChatInput) -> bool:
+        """Whether a message answers a question that is settled; that is told."""
+        if late := self._questions.is_late(said):
+            self._say(said.targets, texts.settled(said.message), "response", said.id)
+        return late
 
     def _is_repeated(self, said: ChatInput) -> bool:
         """Whether a program says the same on and on, which is told once; to stop counts every time."""
@@ -352,16 +359,17 @@ class ChatInterface(Node):
         if control is None and refuses and not calls:  # "A, never mind"
             return self._presence.named_in(said.message) or targets
         if control is not None:
-            return self._presence.meant_by(said.message, control) or targets
+            own = self._own_of_all(said) if control == "start" else ()
+            return list(dict.fromkeys((*(self._presence.meant_by(said.message, control) or targets), *own)))
         return list(dict.fromkeys((*targets, *(self._called_off(said) if calls else ()))))
 
     def _called_off(self, said: ChatInput) -> list[str]:
         """The robots at something that the words of a call to stop name, be it all of them."""
-        return [
-            name
-            for name in self._presence.called_in(said.message)
-            if self._known.is_under_way(name) or self._known.moves(name, self._presence.get(name))
-        ]
+        return [name for name in self._presence.called_in(said.message) if self._is_under_way(name)]
+
+    def _is_under_way(self, name: str) -> bool:
+        """Whether a robot is at something, or moves by itself."""
+        return self._known.is_under_way(name) or self._known.moves(name, self._presence.get(name))
 
     def _hand_on(self, target: str, decision: PlanDecision, said: ChatInput) -> None:
         """Hand a yes or no on, if the question about the plan is what the robot said last; else ask again."""
@@ -396,10 +404,37 @@ class ChatInterface(Node):
         if control == "clear" and _MISSION in said.message.lower():
             self._board.call_off(target, said)
 
+    def _own_of_all(self, said: ChatInput) -> list[str]:
+        """Those of all that are called who stand because whoever calls them told them to."""
+        called = self._presence.called_in(said.message)
+        return [name for name in called if self._known.stands_for(name, said.who)]
+
     def _called_but_still(self, target: str, said: ChatInput) -> list[str]:
-        """Who else stands though all were called: "all" stops all, but each is let go on by itself."""
-        others = {*self._presence.called_in(said.message)} - {target, *said.targets}
+        """Who stands on though all were called: with all one only lets go on whom one has stopped oneself."""
+        others = {*self._presence.called_in(said.message)} - {target, *said.targets, *self._own_of_all(said)}
         return sorted(name for name in others if self._known.state(name) == "paused")
+
+    def _tells_apart(self, said: ChatInput) -> bool:
+        """Whether some robots were told to stand or to go on, and others not; that is done then."""
+        hearers = [name for target in said.targets if (name := self._presence.resolve(target))]
+        told = halting(said.message, self._presence.ever(), hearers)
+        if told is None:
+            return False
+        named = {*self._presence.named_in(said.message)}
+        stands = [name for name in told.goes if self._known.state(name) == "paused"]
+        lets_go = [name for name in stands if name in named or name in self._own_of_all(said)]
+        drives = [name for name in told.goes if self._is_under_way(name)]
+        stops = [name for name in told.stops if self._is_under_way(name)]
+        for name in stops:
+            self._control(name, "stop", said)
+        for name in lets_go:
+            self._control(name, "start", said)
+        for name in drives:
+            self._say((name,), texts.CONTROL_REPLIES["start"], "response", said.id)
+        if not (stops or lets_go or drives):
+            text = sentence("{robots} is not under way.", robots=", ".join((*told.stops, *told.goes)))
+            self._say(hearers[:1], text, "response", said.id)
+        return True
 
     def _offers_past(self, target: str, message: str) -> bool:
         """Whether "go on" means to leave what was seen as it is: a robot asks just that."""
@@ -637,7 +672,7 @@ class ChatInterface(Node):
         if control == "start" and state == "paused" and offered is not None:
             reply = together(sentence(reply), texts.STILL_ASKED)
         if control == "start" and (still := self._called_but_still(target, said)):
-            alone = sentence("That lets nobody but me go on; {robots} still stands.", robots=", ".join(still))
+            alone = sentence(STAND_ON, robots=", ".join(still))
             reply = together(sentence(reply), alone)
         if more and len(said.message.split()) > _SHORT_WORDS:  # there may be an order in it
             reply = together(sentence(reply), texts.REST_LEFT)

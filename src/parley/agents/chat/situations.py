@@ -22,6 +22,7 @@ from parley.memory.sayings import asks_for_all
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.memory import MemoryEntry
+from parley.messages.principal import Principal
 from parley.messages.status import ActionInfo, ActorStatus, GraphEvent, PlanProposal, PlanUpdate
 from parley.transport.base import Transport
 from parley.world.geometry import Pose2D
@@ -68,6 +69,8 @@ class Situations:
         self._conversations: Latest[str, Conversation] = Latest()
         self._asked = LastAsked()
         self._logs: Latest[str, Log] = Latest()
+        self._stopped_by: dict[str, set[Principal]] = {}
+        """By robot that stands: who told it to."""
         self._changes: Latest[str, int] = Latest()
 
     def on_feedback(self, feedback: ChatFeedback) -> None:
@@ -82,6 +85,8 @@ class Situations:
     def on_plan(self, update: PlanUpdate) -> None:
         """A robot's plan changed."""
         status = self._presence.get(update.target)
+        if update.state != "paused" and self.state(update.target) == "paused":
+            self._stopped_by.pop(update.target, None)
         self.plans[update.target] = update
         if status is not None:
             self._catalogues[update.target] = status.catalogue
@@ -118,6 +123,7 @@ class Situations:
 
     def on_stop(self, target: str, said: ChatInput) -> None:
         """Somebody told a robot to stand still."""
+        self._stopped_by.setdefault(target, set()).add(said.who)
         self.log(target).on_stop(said.message, said.who.name, self._clock.unix_ms())
 
     def log(self, target: str) -> Log:
@@ -136,6 +142,13 @@ class Situations:
         """A robot's plan's state."""
         plan = self.plans.get(target)
         return plan.state if plan is not None else "idle"
+
+    def stands_for(self, target: str, who: Principal) -> bool:
+        """Whether a robot stands because somebody, and nobody else, told it to."""
+        plan = self.plans.get(target)
+        if plan is None or plan.state != "paused":
+            return False
+        return {*self._stopped_by.get(target, ()), plan.held_by} == {who}
 
     def doing(self, target: str) -> str:
         """What a robot still has to do, in words; empty if that is nothing, or waits for a yes."""
