@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from parley.gate.orders import Heard, admit
@@ -82,3 +84,14 @@ async def test_the_card_says_why_a_yes_is_wanted(said: str, why: str) -> None:
     answer = await ENGINE.interpret(situation(said))
     order = admit(answer.model_copy(update={"queue": answer.offer}), Heard(said, by=KIM, robot="Ada")).order
     assert order.needs_yes.startswith(why)
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["{}, inspect the pump", "{} inspect the pump", "hey {}, inspect the pump", "Inspect the pump, {}."],
+)
+def test_a_robot_whose_name_is_a_deed_too_is_only_called_by_it(said: str) -> None:
+    for name in ("Spot", "Ada"):
+        heard = replace(situation(said.format(name)), robot=name, robots=(name, "Bo"))
+        decision = ENGINE.decide(heard)
+        assert decision == ENGINE.decide(replace(heard, message="Inspect the pump.")), name

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from rapidfuzz.distance import OSA
@@ -12,7 +13,7 @@ from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.tokens import Token
 from parley.language.dialogue.speaker import Again
 
-__all__ = ["addressed", "for_nobody"]
+__all__ = ["addressed", "for_nobody", "uncalled"]
 
 _BETWEEN = frozenset({"and", ",", "&", ":", "!", "-"})
 _BEFORE = frozenset({
@@ -62,6 +63,18 @@ def addressed(situation: Situation, tokens: Sequence[Token]) -> tuple[str, ...] 
     if len({low[at] for at in named}) > 1:
         return Ask("Please say it to one of us after the other, each by name first.")
     return Ask(f"Is that for {others[0]}? Please call {others[0]} by name first.") if others else here
+
+
+def uncalled(situation: Situation, lexicon: Lexicon) -> str:
+    """The message without the name of who hears it at either end, where that is also a deed: "Spot, go"."""
+    name, said = situation.robot, situation.message
+    if (name.lower(),) not in lexicon.verbs:
+        return said
+    call = rf"\W*(?:(?:hey|ok|okay|please|hi|hello),? )?{re.escape(name)}\b([,:!–-]*)\s+(?=(\w+))"
+    before = re.match(call, said, re.IGNORECASE)
+    if before and (before[1] or (before[2].lower(),) in lexicon.verbs):
+        return said[before.end() :]
+    return re.sub(rf",\s*{re.escape(name)}(?=[.!?]*$)", "", said, flags=re.IGNORECASE)
 
 
 def _run(low: Sequence[str], start: int, names: dict[str, str]) -> list[int]:

@@ -18,6 +18,7 @@ from parley.language.base import (
     Situation,
 )
 from parley.language.builtin import pictures
+from parley.language.builtin.addressing import uncalled
 from parley.language.builtin.amending import amended
 from parley.language.builtin.clauses import Clause, clauses
 from parley.language.builtin.deciding import decide
@@ -122,6 +123,7 @@ class BuiltinLanguage:
             return Ask("That is too much at once. Please say it in shorter pieces.")
         if not any(token.is_word for token in tokenize(situation.message)):
             return Ask("I did not understand that. Please say what I should do.")
+        situation = replace(situation, message=uncalled(situation, self._lexicon))
         situation = self._with_past(replace(situation, message=in_turn(situation.message)))
         situation = replace(situation, memory=(*situation.memory, *in_mind(situation)))
         if (taught := own_words(situation, self._lexicon, self.decide)) is not None:
