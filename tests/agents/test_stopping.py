@@ -94,9 +94,13 @@ async def test_a_call_to_stop_that_means_several_stops_them_all_whoever_it_is_sa
         party.observer.say(words, "C")
         for name in ("A", "B"):
             await party.state("paused", name)
-        party.observer.say("Everybody carry on.", "A")  # only a stop is meant for all
+        party.observer.say("carry on", "A")  # what is not said to all is meant for one
         await party.state("running", "A")
         assert party.observer.plans["B"].state == "paused"
+        party.observer.say(
+            "Everybody carry on.", "A"
+        )  # and with all those go on whom nobody else has stopped
+        await party.state("running", "B")
 
 
 @pytest.mark.parametrize("turns", [0, 3, 10])

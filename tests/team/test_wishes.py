@@ -58,6 +58,19 @@ def test_sentences_of_the_data_are_read_as_it_says(kind: str, say: str) -> None:
                 Part("rest", "look at box 3", without=("Ada",)),
             ],
         ),
+        ("Ada broke down. Kim, finish its box", [Part("named", "", "Kim", of="Ada")]),
+        ("Ada's stuck, someone take over", [Part("one", "", of="Ada")]),
+        ("station one robot at each door", [Part("all", "go to every door")]),
+        (
+            "let one robot check the gate and one stay at the dock",
+            [Part("one", "check the gate"), Part("one", "stay at the dock")],
+        ),
+        (
+            "keep Ada at the dock, send the other one to the gate",
+            [Part("named", "go to the dock", "Ada"), Part("rest", "go to the gate", without=("Ada",))],
+        ),
+        ("recall all robots", [Part("all", "", home=True)]),
+        ("call Kim back to the gate", [Part("named", "go back to the gate", "Kim")]),
         ("Kim, not you", [Part("named", "", "Kim", instead=True)]),
         ("not Ada, take Kim for that", [Part("named", "", "Kim", of="Ada", instead=True)]),
         (

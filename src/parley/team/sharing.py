@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from itertools import combinations
 from typing import Final
 
 from parley.messages.chat import ActionCall, Flow, FlowIf
 from parley.messages.status import ActionInfo, PlanStep
 from parley.sentences import Sentence, sentence
-from parley.team.allotment import allot
+from parley.team.allotment import allot, finish_s
 from parley.team.outlook import Outlook, Task
 
 __all__ = ["alike", "in_turn", "is_search", "left_of", "place_of", "shared", "tasks_of", "why"]
@@ -95,6 +96,7 @@ def shared(
     batteries: Mapping[str, float | None],
     *,
     one_each: bool = False,
+    most: int = 0,
 ) -> dict[str, list[Task]] | None:
     """Which robot does which tasks, in this order; None if some can be done by nobody.
 
@@ -104,6 +106,7 @@ def shared(
         able: Of each robot, by task, whether it can do it.
         batteries: How full each robot's battery is, if it tells.
         one_each: Whether nobody takes more than one.
+        most: How many robots may have a part in it; 0: all.
     """
     strong = {name: not _is_weak(batteries.get(name)) for name in outlooks}
     covered = [any(strong[name] and able[name][at] for name in outlooks) for at in range(len(tasks))]
@@ -111,12 +114,17 @@ def shared(
         outlook.member(name, [can and (strong[name] or not covered[at]) for at, can in enumerate(able[name])])
         for name, outlook in outlooks.items()
     ]
-    routes = allot(members, one_each=one_each)
-    if routes is None:
+    found = []
+    for some in combinations(members, min(most or len(members), len(members))):
+        if (routes := allot(some, one_each=one_each)) is not None:
+            times = [finish_s(member, route) for member, route in zip(some, routes, strict=True)]
+            found.append((max(times), sum(times), some, routes))
+    if not found:
         return None
+    _, _, takers, routes = min(found, key=lambda one: one[:2])
     return {
         member.name: [tasks[at] for at in route]
-        for member, route in zip(members, routes, strict=True)
+        for member, route in zip(takers, routes, strict=True)
         if route
     }
 
@@ -141,6 +149,8 @@ def why(
     """
     place = place_of(task)
     can = [name for name in outlooks if able[name][at]]
+    if len(outlooks) == 1:
+        return sentence("nobody else is there for it")
     if len(can) == 1:
         return sentence("only {robot} can do that", robot=robot)
     nearest = min(can, key=lambda name: (outlooks[name].ways_m[at], name != robot))

@@ -50,6 +50,8 @@ class Part:
     """Whether it is to go back, and it is not said where to."""
     fullest: bool = False
     """For `one`: whoever has most left in its battery."""
+    idle: bool = False
+    """For `one`: somebody who has nothing to do, if there is one."""
     stays: bool = False
     """Whether it is to do nothing."""
     awaits: str = ""
@@ -182,6 +184,7 @@ class _Words:
             return TeamWish("swap", tuple(Part("named", "", name) for name in named)) if two else None
         return (
             self._other(text)
+            or self._taken_over(text)
             or self.share(text)
             or self._bare(text, asks=asks)
             or self.parts(text, asks=asks, alone=alone)
@@ -195,7 +198,7 @@ class _Words:
             return None
         said = " ".join(value for name, value in found.groupdict().items() if value and name[:3] == "out")
         out, rest = self._called(said), found["rest"]
-        wish = self.wish(rest)
+        wish = self.wish(rest, alone=True)
         if wish is None and is_of_several(rest) and (rest.split(" ")[0].lower(),) in lexicon().verbs:
             wish = _shared(rest)
         if wish is None or any(part.robot for part in wish.parts):
@@ -329,7 +332,26 @@ class _Words:
             return TeamWish("share", (Part("all", found["what"], without=out),), bare=True)
         if found := self._match(r"(?:all )?work together,?(?: and| to|:)? (?P<order>.+)", text):
             return _shared(found["order"])
-        return self._one_each(text)
+        if (found := self._match(rf"{self.of('apart')},?(?: and| to|:)? (?P<order>.+)", text)) and _acts(
+            found["order"]
+        ):
+            return _shared(found["order"])
+        return self._one_per(text) or self._one_each(text)
+
+    def _one_per(self, text: str) -> TeamWish | None:
+        """A robot for each of some things: "one robot per area", "a robot at each door"."""
+        per = self.of("oneper")
+        found = self._match(per, text) or self._match(rf"{self.of('posting')} {per}", text)
+        if found:
+            what = found["what"] or found["what2"]
+            if self._match(per, text) and not self._match(r".+ (?:in|at|to|by) (?:each|every) .+", text):
+                return TeamWish("share", (Part("all", f"each {what}"),), bare=True)
+            return TeamWish("share", (Part("all", f"go to every {what}"),), one_each=True)
+        if found := self._match(rf"(?P<order>.+?),?(?: and| with)? {per}", text):
+            return TeamWish("share", (Part("all", found["order"]),), one_each=True) if _acts(text) else None
+        takes = r"(?:takes?|gets?|picks?) (?:an?|one) (?P<what>\w+)(?: each)?"
+        found = self._match(rf"(?:{self.of('each')}|{self.of('all')}),? {takes}", text)
+        return TeamWish("share", (Part("all", f"each {found['what']}"),), bare=True) if found else None
 
     def _one_each(self, text: str) -> TeamWish | None:
         """Work of which nobody takes more than one."""
@@ -355,18 +377,19 @@ class _Words:
 
     def parts(self, text: str, *, asks: bool, alone: bool) -> TeamWish | None:
         """Who is to do what, one part after the other as it was said."""
-        if (taken := self._taken_over(text)) is not None:
-            return taken
         anyone = "|".join(self.of(who) for who in ("one", "some", "all", "each"))
+        text = self._recalled(text)
         if found := self._match(rf"{self.of('handing')} (?P<rest>(?:{anyone}) .+)", text):
             text = found["rest"]
+        others = rf"(?:{anyone}|{self.of('rest')}|{self._names})"
+        text = re.sub(rf"((?:[,;:.]|\band|\bbut) ){self.of('handing')} (?={others}\b)", r"\1", text)
         handing = (
             rf"(?:{self.of('handing')} (?P<robot>{self._names})|(?P<own>{self._names}) {self.of('duty')})"
         )
         found = self._match(rf"{handing} (?P<order>.+)", text)
         if found and not (asks and found["own"]):
             robot = found["robot"] or found["own"]
-            if re.search(rf"\b{self._names}\b", found["order"], re.IGNORECASE):
+            if len(self._pieces(f"{robot} {found['order']}")) > 1:
                 text = f"{robot} {found['order']}"  # the next one has a part of its own
                 at = rf"({self._names}) (?:at|by|near)(?= )"  # "I want Ada and Kim at the gate"
                 text = re.sub(at, r"\1 go to", text, flags=re.IGNORECASE) if found["robot"] else text
@@ -466,14 +489,31 @@ class _Words:
         own = self._part("named", robot, order, after=False, known=())
         return TeamWish("parts", (own,)) if own is not None else None
 
+    def _recalled(self, text: str) -> str:
+        """Robots that are called back, as if it were said to them: "bring everyone home"."""
+        whom = rf"(?P<whom>{self.of('all')}|{self.of('each')}|{self.of('rest')}|{self._names})"
+        found = self._match(rf"{self.of('recalling')} {whom} (?P<way>(?:back|home)\b.*)", text)
+        found = found or self._match(rf"recall {whom}(?P<way>(?: to .+)?)", text)
+        if found is None:
+            return text
+        way = found["way"] if not found["way"].startswith(" ") and found["way"] else f"back{found['way']}"
+        lead = "let " if found["whom"].lower() in self._robots else ""
+        return f"{lead}{found['whom']} {way}"
+
     def _taken_over(self, text: str) -> TeamWish | None:
         """That one robot does what is left of another one's work."""
-        who = rf"(?:{self.of('handing')} )?(?P<robot>{self._names}),?(?: {self.of('modal')})?"
-        found = self._match(rf"{who} {self.of('takeover')}", text) or self._match(self.of("givenaway"), text)
-        if found is None or found["robot"].lower() == found["of"].lower():
+        anyone = rf"(?:(?P<robot>{self._names})|{self.of('one')})"
+        who = rf"(?:{self.of('handing')} )?{anyone},?(?: {self.of('modal')})?"
+        ails = rf"(?P<of>{self._names}) ?{self.of('trouble')} ?[,.;:–-]+ ?(?:(?:so|and|then|please),? )*"
+        found = (
+            self._match(rf"{who} {self.of('takeover')}", text)
+            or self._match(self.of("givenaway"), text)
+            or self._match(rf"{ails}{who} {self.of('stepsin')}", text)
+        )
+        if found is None or (found["robot"] or "").lower() == found["of"].lower():
             return None
-        robot, of = self._robots[found["robot"].lower()], self._robots[found["of"].lower()]
-        return TeamWish("parts", (Part("named", "", robot, of=of),))
+        robot, of = self._robots.get((found["robot"] or "").lower(), ""), self._robots[found["of"].lower()]
+        return TeamWish("parts", (Part("named" if robot else "one", "", robot, of=of),))
 
     def _pieces(self, text: str) -> list[_Piece]:
         """The parts as said."""
@@ -532,6 +572,7 @@ class _Words:
             nearest="nearest" in of_whom or "closest" in of_whom,
             without=self._called(" ".join(left_out)),
             fullest=self._match(self.of("strongest"), of_whom) is not None,
+            idle=self._match(self.of("idle"), of_whom) is not None,
         )
         order = re.sub(r",? first$", "", said.strip(" ,"), flags=re.IGNORECASE)
         way = re.match(r"to (\w+)", order, re.IGNORECASE)
@@ -607,6 +648,11 @@ def _as_others(made: Sequence[Part]) -> list[Part]:
 
 def _shared(order: str, without: tuple[str, ...] = ()) -> TeamWish:
     return TeamWish("share", (Part("all", order, without=without),))
+
+
+def _acts(order: str) -> bool:
+    """Whether words begin with what one can do."""
+    return (order.split(" ")[0].lower(),) in lexicon().verbs
 
 
 def _opened(order: str) -> str:

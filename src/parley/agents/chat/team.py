@@ -431,7 +431,7 @@ class _Work:
                 continue
             of = part.of or (target if part.instead else "")
             if of and not (part.instead and (self._team.offers(of) or not self._team.left(of))):
-                return self._taken_over(part, of)
+                return await self._taken_over(part, of)
             if part.home:
                 return self._where_to(part, alone=len(wish.parts) == 1)
             words, stops = await self._words(part, of or target)
@@ -478,20 +478,24 @@ class _Work:
         else:
             self._shares[begun:] = [replace(share, awaits=(robot, order)) for share in self._shares[begun:]]
 
-    def _taken_over(self, part: Part, of: str) -> Mission:
-        """One robot does what is left of another one's plan."""
-        status = self._members.get(part.robot)
+    async def _taken_over(self, part: Part, of: str) -> Mission:
+        """One robot does what is left of another one's plan: the one that is named, or whom it suits best."""
+        found = None if part.robot else await self._team.stand_in(of, [*self._members])
+        robot, reason = found or (part.robot, "")
+        status = self._members.get(robot)
         tasks = self._team.left(of)
-        if status is None:
-            text = sentence("{robot} is not ready, so nothing of that has begun.", robot=part.robot)
-        elif not tasks:
+        if not tasks:
             text = sentence("{robot} has nothing left to do.", robot=of)
+        elif not robot:
+            text = sentence("We cannot do all of that.")
+        elif status is None:
+            text = sentence("{robot} is not ready, so nothing of that has begun.", robot=robot)
         elif not can_do(status, tasks):
-            text = sentence("{robot} cannot do that.", robot=part.robot)
+            text = sentence("{robot} cannot do that.", robot=robot)
         else:
             calls = tuple(call for task in tasks for call in task)
             text = sentence(GIVES_UP, robot=of)
-            return Mission((Share(part.robot, calls),), text, relieved={of: part.robot})
+            return Mission((Share(robot, calls, reason),), text, relieved={of: robot})
         return Mission(text=text)
 
     def _where_to(self, part: Part, *, alone: bool) -> Mission:
@@ -565,13 +569,12 @@ class _Work:
         if together and not (splits and (fits or is_of_several(words) or " and " not in words)):
             return _how_to_share(part, words, [*own])
         if part.who in ("one", "some"):
-            tasks = [first.calls] * part.count
-            return await self._allot(
-                tasks, first, able, one_each=True, nearest=part.nearest, fullest=part.fullest
-            )
+            if part.count > 1 and splits:  # "two of you check the areas" is not that both check all
+                return await self._allot([*first.tasks], first, able, part, one_each=False)
+            return await self._allot([first.calls] * part.count, first, able, part, one_each=True)
         if wish.kind == "share" or together:
             tasks = list(first.tasks) if splits else [first.calls]
-            return await self._allot(tasks, first, able, one_each=wish.one_each)
+            return await self._allot(tasks, first, able, part, one_each=wish.one_each)
         self._each(part, own, able, read)
         return None
 
@@ -605,10 +608,9 @@ class _Work:
         tasks: list[Task],
         first: _Understood,
         read: Mapping[str, _Understood],
+        part: Part,
         *,
         one_each: bool,
-        nearest: bool = False,
-        fullest: bool = False,
     ) -> Mission | None:
         """Give tasks to those who are done soonest, or one to the nearest."""
         if len(tasks) > MOST_TASKS:
@@ -624,23 +626,30 @@ class _Work:
             name: [task in read[name].tasks or task == read[name].calls for task in tasks]
             for name in outlooks
         }
-        takers = dict(outlooks)
-        if nearest and outlooks:
-            closest = min(outlooks, key=lambda name: outlooks[name].ways_m[0])
-            takers = {closest: outlooks[closest]}
-        if fullest:
-            most = max((self._batteries.get(name) or 0.0 for name in outlooks), default=0.0)
-            takers = {
-                name: one for name, one in outlooks.items() if (self._batteries.get(name) or 0.0) >= most
-            }
-        routes = shared(tasks, takers, able, self._batteries, one_each=one_each) if takers else None
+        takers = self._takers(part, outlooks)
+        most = part.count if part.who == "some" else len(takers)
+        routes = (
+            shared(tasks, takers, able, self._batteries, one_each=one_each, most=most) if takers else None
+        )
         if routes is None:
             text = sentence("We cannot do all of that.")
             return Mission(text=text)
         for name, route in routes.items():
             reason = why(name, route[0], tasks.index(route[0]), outlooks, able, self._batteries)
-            if fullest and len(takers) < len(outlooks):
+            if part.fullest and len(takers) < len(outlooks):
                 reason = sentence("{robot} has the fullest battery", robot=name)
             calls = in_turn(route, search=len(route) > 1 and is_search(first.calls))
             self._shares.append(Share(name, calls, reason, first.needs_yes, drops=read[name].drops))
         return None
+
+    def _takers(self, part: Part, outlooks: Mapping[str, Outlook]) -> dict[str, Outlook]:
+        """Those to whom a part may fall, of all that could do it."""
+        names = [*outlooks]
+        if part.idle:
+            names = [name for name in names if not self._team.is_busy(name)] or names
+        if part.nearest and names:
+            names = [min(names, key=lambda name: outlooks[name].ways_m[0])]
+        if part.fullest:
+            most = max((self._batteries.get(name) or 0.0 for name in names), default=0.0)
+            names = [name for name in names if (self._batteries.get(name) or 0.0) >= most]
+        return {name: outlooks[name] for name in names}
