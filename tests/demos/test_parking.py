@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from parley.demos.catalogue import Demo, load_demo
+from parley.world.object_map import MapObject
 from tests.demos.house import played
 
 Point = tuple[float, float]
@@ -48,3 +49,18 @@ async def test_story_holds_and_the_bag_is_found_where_the_camera_saw_it(
     assert len([node for node in looks if node.startswith("Inspect")]) == 4
     kept = {event["name"] for event in events if event["event"] == "memory"}
     assert {"areas_of_interest", "black_bag_sighting", "picture of the black bag"} <= kept
+
+
+@pytest.mark.parametrize("name", ["black bag", "bag"])
+async def test_a_bag_that_is_on_the_map_beforehand_is_that_bag_and_no_area_is_taken_for_another(
+    demo: Demo, tmp_path: Path, name: str
+) -> None:
+    entry = MapObject("black_bag_1", name, 20.85, 2.05, "bag", width_m=0.5, height_m=0.4)
+    prepared = replace(demo, objects=replace(demo.objects, objects=(*demo.objects.objects, entry)))
+    reason, events, system = await played(prepared, tmp_path)
+    assert reason == ""
+    (found,) = (item for item in system.known.objects if item.class_name == "bag")
+    assert (found.id, found.description) == ("black_bag_1", name)
+    assert math.dist((found.x_m, found.y_m), (20.9, 2.0)) < 0.3
+    seen = [event["text"] for event in events if event["event"] == "said" and "I see no" in event["text"]]
+    assert [text.split(" in ")[1][:6] for text in seen] == ["Area A", "Area B"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from parley.world.found import FoundThings
@@ -47,3 +48,17 @@ async def test_a_damaged_file_is_no_reason_not_to_start(tmp_path: Path) -> None:
     file = tmp_path / "found.json"
     file.write_text("{")
     assert FoundThings(file).added_to(KNOWN) == KNOWN
+
+
+async def test_what_is_seen_where_the_map_has_such_a_thing_under_another_name_is_that_thing() -> None:
+    case = MapObject("case", "suspicious bag", 2.0, 2.0, "bag", width_m=0.4, height_m=0.3)
+    known = ObjectMap((*KNOWN.objects, case))
+    found = FoundThings()
+    seen = await found.note("black bag", Footprint(2.1, 2.1, 0.4, 0.3), known)
+    assert (seen.id, seen.description, seen.aliases) == ("case", "suspicious bag", ("black bag",))
+    assert len(found.added_to(known).objects) == 3
+    assert (await found.note("black bag", Footprint(2.9, 2.1, 0.4, 0.3), known)).id == "case"  # it was moved
+    for label, x_m in (("black box", 2.1), ("black bag", 2.9)):
+        assert (await FoundThings().note(label, Footprint(x_m, 2.1, 0.4, 0.3), known)).id != "case"
+    red = ObjectMap((replace(case, description="red bag"),))
+    assert (await FoundThings().note("black bag", Footprint(2.0, 2.0, 0.4, 0.3), red)).id != "case"

@@ -30,6 +30,11 @@ _MOVED_M: Final = 3.0
 """Something of the same name that is seen no farther away was moved; else it is another one."""
 _SEEN_M: Final = 0.1
 """So much beside its place on the map something may be seen that was not moved."""
+_SAME_PLACE_M: Final = 0.5
+"""No farther from where the map has a thing of that kind it is that thing, whatever it is called there."""
+_COLOURS: Final = frozenset({
+    "black", "white", "grey", "gray", "red", "green", "blue", "yellow", "orange", "brown", "purple", "pink",
+})  # fmt: skip
 _SMALLEST_M: Final = 0.1
 _WHERE: Final = re.compile(r"\b(?:at|by|from|in|near|of|on|with)\b")
 """Before these stands what it is: a box by the door is no door."""
@@ -84,8 +89,13 @@ class FoundThings:
         """
         now = self.added_to(known)
         alike = [item for item in now.objects if label.lower() in (item.description.lower(), *item.aliases)]
+        alike = alike or [
+            replace(item, aliases=(*item.aliases, label.lower()))
+            for item in now.objects
+            if _may_be(label, item) and _apart_m(item, place) <= _SAME_PLACE_M
+        ]
         old = min(alike, key=lambda item: _apart_m(item, place), default=None)
-        if old is not None and (standing(place, old) == "in" or _is_there(place, old)):
+        if old in now.objects and (standing(place, old) == "in" or _is_there(place, old)):
             return old
         if old is not None and _apart_m(old, place) <= _MOVED_M:
             found = _at(old, place)
@@ -106,6 +116,14 @@ class FoundThings:
 def _at_home(item: MapObject | None) -> list[float] | None:
     """Where the map has something."""
     return [item.x_m, item.y_m] if item is not None else None
+
+
+def _may_be(label: str, item: MapObject) -> bool:
+    """Whether what was seen may be a thing that the map calls otherwise: a "black box" its "lost box"."""
+    seen, known = (_WHERE.split(text.lower())[0].split() for text in (label, item.description))
+    kinds = {item.class_name.lower(), *known[-1:]}
+    colours = {word for word in (*seen, *known) if word in _COLOURS}
+    return bool(seen) and seen[-1] in kinds and len(colours) < 2
 
 
 def _apart_m(item: MapObject, place: Footprint) -> float:
