@@ -423,7 +423,7 @@ class ChatInterface(Node):
         named = {*self._presence.named_in(said.message)}
         stands = [name for name in told.goes if self._known.state(name) == "paused"]
         lets_go = [name for name in stands if name in named or name in self._own_of_all(said)]
-        drives = [name for name in told.goes if self._is_under_way(name)]
+        drives = [name for name in told.goes if self._known.state(name) == "running"]
         stops = [name for name in told.stops if self._is_under_way(name)]
         for name in stops:
             self._control(name, "stop", said)
