@@ -70,7 +70,8 @@ class Parts:
                 await process.wait()
 
     async def start(self, part: str, *options: str) -> None:
-        """Start a part anew; `engine` or a node."""
+        """Start a part anew; `engine`, the engine of one robot of the team (`engine Leo`), or a node."""
+        name, _, one = part.partition(" ")
         driven = [] if not self.robot else ["--robot", ROBOT, "--class", str(self.robot)]
         words = {
             "router": ["node", "router"],
@@ -78,7 +79,9 @@ class Parts:
             "engine": ["engine", "--world", "nursing-home", *driven, "--data", str(self.folder / "engine")],
             "agents": ["node", "agents", "--data", str(self.folder / "agents")],
             "web": ["node", "web", "--no-open", "--port", str(self.port), "--data", str(self.folder / "web")],
-        }[part]
+        }[name]
+        if one:
+            words = ["engine", "--world", "fleet", "--robot", one, "--data", str(self.folder / part)]
         settings = self.door if part == "simulator" else self.settings
         self.processes[part] = await asyncio.create_subprocess_exec(
             sys.executable, "-m", "parley", *words, "--config", str(settings), *options,
@@ -98,14 +101,14 @@ class Parts:
         """It goes on."""
         self.processes[part].send_signal(signal.SIGCONT)
 
-    async def until_met(self) -> None:
+    async def until_met(self, robot: str = ROBOT) -> None:
         """Wait until those who plan know the robot."""
         known = "{}"
         async with asyncio.timeout(60.0):
             while known == "{}":
                 await asyncio.sleep(0.1)
                 with contextlib.suppress(TransportError):
-                    asked = ChatRequest(encode(GetMap(robot=ROBOT)))
+                    asked = ChatRequest(encode(GetMap(robot=robot)))
                     known = (await self.transport.call(topics.GET_MAP, asked, timeout_s=5.0)).response
             await self.settled()
 
@@ -164,10 +167,12 @@ async def parts(folder: Path, *names: str, speed: str = "1") -> AsyncIterator[Pa
         for name in names:
             if name not in made.processes:
                 await made.start(name)
-        if "engine" in names:
-            await made.operator.until(lambda: ROBOT in made.operator.robots)
+        robots = [ROBOT] if "engine" in names else [name[7:] for name in names if name[:7] == "engine "]
+        for robot_name in robots:
+            await made.operator.until(lambda name=robot_name: name in made.operator.robots)  # type: ignore[misc]
         if "agents" in names:
-            await made.until_met()
+            for robot_name in robots or [ROBOT]:
+                await made.until_met(robot_name)
         yield made
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, Self
 
 import httpx
+import pytest
 
 from parley.clock import WallClock
 from parley.demos.catalogue import load_demo
@@ -50,6 +51,41 @@ async def test_each_half_is_killed_under_way_and_nothing_is_lost_or_done_twice(t
         await operator.until(lambda: operator.state(ROBOT) == "idle")
         assert [step.state for step in operator.plans[ROBOT].steps][-2:] == ["finished", "finished"]
         assert (system.begun("NavigateTo"), system.begun("Inspect")) == (2, 1)
+
+
+@pytest.mark.timeout(300)
+async def test_a_robot_of_a_team_is_killed_under_way_and_another_one_does_its_part_once(
+    tmp_path: Path,
+) -> None:
+    team = ("Spot", "TIAGo", "Leo")
+    async with parts(tmp_path, *(f"engine {name}" for name in team), "agents") as system:
+        operator = system.operator
+        operator.say("Check Area A, Area B and Area C, split between you.", "Spot")
+        await operator.until(
+            lambda: {robot for robot in team if operator.state(robot) == "running"} == {*team}
+        )
+
+        await system.kill("engine Leo")
+        offers = "Let Spot take over from Leo"
+        await operator.until(lambda: any(offers in said.choices for said in operator.said))
+        operator.say(offers, "Spot")
+        await operator.until(lambda: system.heard("Leo gives up what is left of its plan."))
+        await operator.until(lambda: {operator.state("Spot"), operator.state("TIAGo")} == {"idle"})
+
+        del system.statuses["Leo"]
+        await system.start("engine Leo")
+        async with asyncio.timeout(60.0):
+            while "Leo" not in system.statuses:
+                await system.settled()
+        await system.settled()
+        looked = sorted(
+            str(step.action.input_parameters["inspect"].value)
+            for plan in operator.plans.values()
+            for step in plan.steps
+            if step.action.name == "Inspect" and step.state == "finished"
+        )
+        assert looked == ["Area A", "Area B", "Area C"]
+        assert system.begun("Inspect") == 3, "no place is looked at twice"
 
 
 async def test_a_button_that_is_pressed_while_nobody_plans_is_told_of_and_does_nothing_later(
