@@ -81,6 +81,14 @@ def test_yes_answers_a_question_that_came_after_the_proposal() -> None:
     assert (message.type, message.reply_to) == ("response", "q1")
 
 
+def test_a_yes_to_something_else_that_was_said_since_begins_no_plan() -> None:
+    robot = RobotView("Ada", pending=[PROPOSAL], spoke_since=True)
+    message = compose(robot, "yes", "m1")
+    assert isinstance(message, ChatInput)
+    assert robot.pending == [PROPOSAL]
+    assert isinstance(compose(robot, "no", "m2"), PlanDecision)
+
+
 def test_estonian_yes_is_yes() -> None:
     message = compose(RobotView("Ada", pending=[PROPOSAL]), "jah", "m1")
     assert isinstance(message, PlanDecision)

@@ -65,10 +65,12 @@ def compose(robot: RobotView, text: str, message_id: str) -> ChatInput | PlanDec
     """The message that `text` is to `robot`: a decision on its plan, an answer to its question, or new words.
 
     What the text answers is no longer pending afterwards. "Stop" and its kin answer nothing: the question
-    stays until whoever asked it takes it back.
+    stays until whoever asked it takes it back. Nor does a yes begin a plan once the robot has said something
+    else: whoever heard it last asks anew.
     """
     last = robot.pending[-1] if robot.pending else None
-    if isinstance(last, PlanProposal) and (decision := _decision(text)):
+    decision = _decision(text)
+    if isinstance(last, PlanProposal) and (decision == "no" or (decision and not robot.spoke_since)):
         robot.pending.remove(last)
         return PlanDecision(
             id=last.id,

@@ -19,7 +19,7 @@ from parley.messages.status import (
     Rejection,
     StopReport,
 )
-from parley.sentences import SpokenLanguage, in_language, sentence
+from parley.sentences import LANGUAGES, SpokenLanguage, in_language, sentence
 from parley.terminal.lines import Fragments, Line, LineKind
 from parley.terminal.plan import Progress, call_in_words, compare, is_over, lines_of, plan_rows, step_row
 
@@ -47,6 +47,8 @@ STOPS: Final = {
 }
 NOT_RELEASED: Final = "{robot} has not heard that it is released and stays stopped. Write /reset again."
 """`StopReport.state` in words."""
+ASKS_FOR_YES: Final = sentence("Shall I?")
+"""How a robot ends that asks for a yes to a plan."""
 _DRAFT_CHARS = 70
 
 ANSWERS_WITHIN_S = 2.0
@@ -83,6 +85,8 @@ class RobotView:
     progress: Progress | None = None
     pending: list[Question | PlanProposal] = field(default_factory=list)
     """Questions and proposals that await the operator, oldest first."""
+    spoke_since: bool = False
+    """Whether it said something else since it asked for a yes: then a yes may mean that."""
     draft: str = ""
     """The reply that it is writing, as far as it is."""
     offered: tuple[str, ...] = ()
@@ -353,6 +357,7 @@ class OperatorView:
         self.replies += 1
         robot.pending = [item for item in robot.pending if item.id != proposal.id]
         robot.pending.append(proposal)
+        robot.spoke_since = False
         heading = Line("heading", self.say("{robot} would do this:", robot=robot.name))
         lines = proposal.lines or tuple(map(call_in_words, proposal.steps))
         rows = [
@@ -397,6 +402,9 @@ def _hear(robot: RobotView, feedback: ChatFeedback) -> None:
     settled = {feedback.closes} if feedback.closes else set()
     if feedback.type in ("response", "error"):
         robot.draft = ""
+    if feedback.type != "info":
+        asks = tuple(in_language(ASKS_FOR_YES, language) for language in LANGUAGES)
+        robot.spoke_since = not feedback.message.rstrip().endswith(asks)
     if feedback.type in ("request", "response"):
         settled.add("")
     robot.pending = [
