@@ -24,16 +24,17 @@ from tests.sim.worlds import box, two_rooms
 Way = list[tuple[float, float]]
 
 
-async def driven(seed: int) -> Way:
-    """Where robot "A" is, each time that its way changes, from one room into the other."""
+async def driven(seed: int, world: WorldFile | None = None, goal: tuple[float, float] = (4.5, 3.2)) -> Way:
+    """Where the first robot is, each time that its way changes; by itself from one room into another."""
     way: Way = []
-    async with SimulatedFleet(two_rooms(), speed=None, seed=seed) as fleet:
-        robot = fleet.robot("A", RuleBook(SimClock()))
+    world = world or two_rooms()
+    async with SimulatedFleet(world, speed=None, seed=seed) as fleet:
+        robot = fleet.robot(world.robots[0].name, RuleBook(SimClock()))
 
         def here(_: float) -> None:
             way.append((robot.pose().x_m, robot.pose().y_m))
 
-        await robot.navigate(Pose2D(4.5, 3.2), NavigationControl(here, lambda: False), timeout_s=60)
+        await robot.navigate(Pose2D(*goal), NavigationControl(here, lambda: False), timeout_s=120)
     return way
 
 
@@ -43,6 +44,18 @@ async def test_seeds_drive_other_ways_and_the_same_seed_the_same_again() -> None
     for one, other in itertools.combinations(ways[:3], 2):
         assert max(map(math.dist, one, other)) > 0.05
     assert all(math.dist(way[-1], (4.5, 3.2)) < 0.1 for way in ways)
+
+
+@pytest.mark.parametrize(
+    ("name", "goal"), [("nursing-home", (1.2, 5.7)), ("parking", (3.4, 10.0)), ("warehouse", (11.4, 11.2))]
+)
+async def test_in_the_world_of_each_story_seeds_drive_other_ways(
+    name: str, goal: tuple[float, float]
+) -> None:
+    world = load_demo(name).world
+    ways = [await driven(seed, world, goal) for seed in (1, 2)]
+    assert max(map(math.dist, *ways)) > 0.05
+    assert all(math.dist(way[-1], goal) < 0.2 for way in ways)
 
 
 @pytest.mark.parametrize("seed", range(1, 6))
