@@ -26,7 +26,7 @@ class Halting:
 
 
 def halting(message: str, robots: Sequence[str], hearers: Sequence[str]) -> Halting | None:
-    """What a message says of stopping and going on, if that is not the same for all whom it calls.
+    """What a message says of stopping and going on, if that is not just that all shall stop.
 
     Args:
         message: What was said.
@@ -34,7 +34,8 @@ def halting(message: str, robots: Sequence[str], hearers: Sequence[str]) -> Halt
         hearers: Whom it was said to.
     """
     marks = _marks(message, robots) if len(robots) > 1 and not message.rstrip().endswith("?") else None
-    if not marks or not ({kind for kind, _ in marks} & _APART or {*_DEEDS} <= {kind for kind, _ in marks}):
+    kinds = {kind for kind, _ in marks or ()}
+    if not marks or not (kinds & _APART or {*_DEEDS} <= kinds or {"all", "go"} <= kinds):
         return None
     said = _Said()
     for kind, name in marks:

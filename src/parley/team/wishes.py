@@ -343,12 +343,17 @@ class _Words:
         per = self.of("oneper")
         found = self._match(per, text) or self._match(rf"{self.of('posting')} {per}", text)
         if found:
-            what = found["what"] or found["what2"]
+            what = found["what"] or found["what2"] or found["what3"]
             if self._match(per, text) and not self._match(r".+ (?:in|at|to|by) (?:each|every) .+", text):
                 return TeamWish("share", (Part("all", f"each {what}"),), bare=True)
             return TeamWish("share", (Part("all", f"go to every {what}"),), one_each=True)
         if found := self._match(rf"(?P<order>.+?),?(?: and| with)? {per}", text):
             return TeamWish("share", (Part("all", found["order"]),), one_each=True) if _acts(text) else None
+        each = rf"(?:send )?(?:{self.of('each')}|{self.of('all')}),?(?: goes| go)? to"
+        if found := self._match(
+            rf"{each} (?:a (?:different|separate)|an(?:other)?(?: own)?) (?P<what>\w+)", text
+        ):
+            return TeamWish("share", (Part("all", f"go to every {found['what']}"),), one_each=True)
         takes = r"(?:takes?|gets?|picks?) (?:an?|one) (?P<what>\w+)(?: each)?"
         found = self._match(rf"(?:{self.of('each')}|{self.of('all')}),? {takes}", text)
         return TeamWish("share", (Part("all", f"each {found['what']}"),), bare=True) if found else None
@@ -504,7 +509,8 @@ class _Words:
         """That one robot does what is left of another one's work."""
         anyone = rf"(?:(?P<robot>{self._names})|{self.of('one')})"
         who = rf"(?:{self.of('handing')} )?{anyone},?(?: {self.of('modal')})?"
-        ails = rf"(?P<of>{self._names}) ?{self.of('trouble')} ?[,.;:–-]+ ?(?:(?:so|and|then|please),? )*"
+        small = r"(?:(?:so|and|then|please|can|could),? )*"
+        ails = rf"(?P<of>{self._names}) ?{self.of('trouble')} ?[,.;:–-]+ ?{small}"
         found = (
             self._match(rf"{who} {self.of('takeover')}", text)
             or self._match(self.of("givenaway"), text)

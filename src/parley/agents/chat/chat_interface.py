@@ -238,7 +238,7 @@ class ChatInterface(Node):
             self._only_stops(said)
             return
         self._keep_answer(said)
-        if self._tells_apart(said) or (control not in _HALTING and self._is_late(said)):
+        if self._tells_apart(said, control) or (control not in _HALTING and self._is_late(said)):
             return
         if control is None and said.type == "response" and not said.targets and self._questions.robots():
             self._questions.on_input(said)
@@ -414,11 +414,11 @@ class ChatInterface(Node):
         others = {*self._presence.called_in(said.message)} - {target, *said.targets, *self._own_of_all(said)}
         return sorted(name for name in others if self._known.state(name) == "paused")
 
-    def _tells_apart(self, said: ChatInput) -> bool:
+    def _tells_apart(self, said: ChatInput, control: Control | None) -> bool:
         """Whether some robots were told to stand or to go on, and others not; that is done then."""
         hearers = [name for target in said.targets if (name := self._presence.resolve(target))]
         told = halting(said.message, self._presence.ever(), hearers)
-        if told is None:
+        if told is None or (control == "start" and len(told.goes) == len(self._presence.ever())):
             return False
         named = {*self._presence.named_in(said.message)}
         stands = [name for name in told.goes if self._known.state(name) == "paused"]
