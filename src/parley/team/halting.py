@@ -47,18 +47,18 @@ def halting(message: str, robots: Sequence[str], hearers: Sequence[str]) -> Halt
 _Mark = tuple[str, str]
 """What a few words are, and the robot that they name."""
 _DEEDS: Final = ("stop", "go")
-_APART: Final = frozenset({"but", "only", "rest", "nobody", "handing"})
+_APART: Final = frozenset({"but", "only", "rest", "no_other", "handing"})
 """With one of these some robots are told from others."""
 _ALL: Final = "*"
 _REST: Final = "others"
-_WHOM: Final = {"all": _ALL, "nobody": _ALL, "rest": _REST, "hearer": "you"}
+_WHOM: Final = {"all": _ALL, "nobody": _ALL, "rest": _REST, "no_other": _REST, "hearer": "you"}
 
 
 @cache
 def _phrases() -> dict[tuple[str, ...], str]:
     """By words what they are."""
     data = words_in("parley.team", "halting")
-    kinds = ("all", "nobody", "rest", "hearer", "but", "only", *_DEEDS, "small", "handing")
+    kinds = ("all", "nobody", "rest", "no_other", "hearer", "but", "only", *_DEEDS, "small", "handing")
     return {tuple(text.split()): kind for kind in kinds for text in data[kind]}
 
 
@@ -74,6 +74,9 @@ def _marks(message: str, robots: Sequence[str]) -> list[_Mark] | None:
     while at < len(words):
         size = next((n for n in range(longest, 0, -1) if (*words[at : at + n],) in {**known, **names}), 0)
         piece = (*words[at : at + size],)
+        if known.get(piece) == "only" and (*words[at + size : at + size + 1],) not in {*names, ("you",)}:
+            at += size  # "just go on" tells nobody from anybody
+            continue
         if size:
             found.append(("who", names[piece]) if piece in names else (known[piece], ""))
         elif words[at] in ".;:!":
@@ -127,7 +130,7 @@ class _Said:
         self.spares = False
         if kind == "rest" and self.only and self.whom:  # "only Leo, the rest stop"
             self._do("go")
-        self.turned = self.turned or kind == "nobody"
+        self.turned = self.turned or kind in ("nobody", "no_other")
         own = self.clauses[-1].whom if self.is_open else self.whom
         own.append(name or _WHOM[kind])
 

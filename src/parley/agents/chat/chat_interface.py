@@ -424,15 +424,14 @@ class ChatInterface(Node):
         stands = [name for name in told.goes if self._known.state(name) == "paused"]
         lets_go = [name for name in stands if name in named or name in self._own_of_all(said)]
         drives = [name for name in told.goes if self._known.state(name) == "running"]
-        stops = [name for name in told.stops if self._is_under_way(name)]
-        for name in stops:
+        for name in told.stops:  # also who is at nothing: what it is just being told is not done either
             self._control(name, "stop", said)
         for name in lets_go:
             self._control(name, "start", said)
         for name in drives:
             self._say((name,), texts.CONTROL_REPLIES["start"], "response", said.id)
-        if not (stops or lets_go or drives):
-            text = sentence("{robots} is not under way.", robots=", ".join((*told.stops, *told.goes)))
+        if not (told.stops or lets_go or drives):
+            text = sentence("{robots} is not under way.", robots=", ".join(told.goes))
             self._say(hearers[:1], text, "response", said.id)
         return True
 
