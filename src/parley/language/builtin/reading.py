@@ -60,8 +60,7 @@ def read(parse: Parse, lexicon: Lexicon) -> Reading:
         rest = tuple(filler for filler in rest if filler not in where)
     ordered = sorted([*wishes, *implied_wishes], key=lambda wish: wish.start)
     wanted = _without_openers(_once([retyped(wish, lexicon) for wish in ordered]), parse)
-    wanted = _in_order(_shared(wanted), lexicon)
-    spread = [part for wish in wanted for part in _spread(wish)]
+    spread = [part for wish in _shared(wanted) for part in _spread(wish)]
     turns = _turns(spread, parse, lexicon)
     spread = [wish for _, wish in sorted(zip(turns, spread, strict=True), key=itemgetter(0))]
     idle = _left_over(parse, lexicon)
@@ -321,31 +320,20 @@ _GETTING = frozenset({"TAKE", "FIND", "BRING"})
 _SHARING = frozenset({"FIND", "TAKE", "LOOK", "FOLLOW"})
 
 
-def _in_order(wishes: list[Wish], lexicon: Lexicon) -> list[Wish]:
-    """With where to begin first and where to end last: "finish at the desk but start at the gate"."""
-    turn = {"start": 0, "begin": 0, "finish": 2, "end": 2}
-    places = [wish for wish in wishes if wish.frame == "GO" and wish.verb.split(" ")[0] in turn]
-    if not places or any(wish.frame != "GO" or wish.negated for wish in wishes):
-        return wishes
-    small = lexicon.classes["prepositions"] | lexicon.classes["determiners"]
-    names = [{tuple(word for word in f.words if word not in small) for f in wish.fillers} for wish in wishes]
-    ends = {name for wish, called in zip(wishes, names, strict=True) if wish in places for name in called}
-    kept = [w for w, called in zip(wishes, names, strict=True) if w in places or not called & ends]
-    return sorted(kept, key=lambda wish: turn.get(wish.verb.split(" ")[0], 1))
-
-
 def _turns(wishes: list[Wish], parse: Parse, lexicon: Lexicon) -> list[int]:
-    """Of each wish whether it comes first (0) or last (2): "the gate last", "the dock, the gate first"."""
+    """Of each wish whether it comes first (0) or last (2): "the gate last", "finish at the desk"."""
     low = [token.low for token in parse.tokens] + [""]
     words = {word for wish in wishes for filler in wish.fillers for word in filler.words}
     bound = words & (lexicon.classes["pronouns"] | lexicon.classes["there"])
     simple = all(wish.frame == wishes[0].frame and not wish.negated and wish.act != "told" for wish in wishes)
     if bound or not simple:
         return [1] * len(wishes)
-    behind = [{low[filler.end] for filler in wish.fillers} for wish in wishes]
-    return [0 if "first" in words else 2 if "last" in words else 1 for words in behind]
+    said = [{wish.verb.split(" ")[0], *(low[filler.end] for filler in wish.fillers)} for wish in wishes]
+    return [0 if one & _BEGINS else 2 if one & _ENDS else 1 for one in said]
 
 
+_BEGINS = frozenset({"start", "begin", "first"})
+_ENDS = frozenset({"finish", "end", "last"})
 _NAMED = frozenset("TGSLR")
 """Roles that name a thing, a place or a person."""
 _ALONG = frozenset({"down", "up", "round", "over", "back", "home"})
