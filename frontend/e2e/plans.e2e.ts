@@ -117,10 +117,15 @@ describe.skipIf(!hasBrowser)('an operator with a plan', () => {
     const running = steps(page).locator('li[data-state="running"]');
     await running.getByText('Go to “bed”').waitFor();
     await expect.poll(() => queued.count(), { timeout: PATIENCE_MS }).toBe(count - 1);
+    const shown = () => steps(page).locator('li[data-state]').evaluateAll((all) => all.map((one) => `${one.getAttribute('data-state')}: ${one.querySelector('button')?.textContent}`));
+    const before = await shown();
     await page.getByRole('button', { name: 'Skip', exact: true }).click();
     await notes.getByText('“Go to ‘bed’” is left out.').waitFor();
+    await expect.poll(shown, { timeout: PATIENCE_MS }).not.toEqual(before);
+    await running.waitFor(); // what comes next has begun
     await notes.getByRole('button', { name: 'Undo' }).click();
-    await expect.poll(() => steps(page).locator('li[data-state="queued"]').getByText('Go to “bed”').count(), { timeout: PATIENCE_MS }).toBe(1);
+    await expect.poll(shown, { timeout: PATIENCE_MS }).toEqual(before);
+    expect(await page.getByText('I could not do that').count()).toBe(0);
   });
 
   it('presses twice in a hurry, or at once with somebody else, and does it once', async () => {

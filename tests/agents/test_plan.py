@@ -309,6 +309,37 @@ def test_skip_ends_the_running_step_and_goes_on_with_the_next(plan: TargetPlan, 
     assert states(plan) == ["skipped", "queued"]
 
 
+@pytest.mark.parametrize("can_end_step", [True, False])
+def test_undoing_a_skip_lets_what_began_instead_make_way(can_end_step: bool) -> None:
+    numbers = itertools.count()
+    plan = TargetPlan("A", new_graph_name=lambda: f"graph_{next(numbers)}", can_end_step=lambda: can_end_step)
+    engine = Engine(plan)
+    first, second, third = look("bed"), look("door"), look("lamp")
+    engine.take(list(plan.append([first, second, third])))
+    engine.settle()
+    before = [(step.call, step.id) for step in plan.steps]
+
+    def settle(effects: list[Effect]) -> None:
+        engine.take(list(effects))
+        for stopped in (effect for effect in effects if isinstance(effect, StopGraph)):
+            engine.take(list(plan.reports.on_graph(Graph(stopped.graph_name, state=GraphState.STOPPED))))
+        engine.settle()
+
+    settle(plan.skip())
+    gone, begun = plan.steps[0] if can_end_step else None, plan.current
+    assert begun is not None and begun.call == second
+    undoes = {step.id for step in (gone, begun) if step is not None}
+    settle(plan.edit([first, second, third], undoes))
+    assert [(step.call, step.state) for step in plan.steps] == [
+        (first, "running"), (second, "queued"), (third, "queued"),
+    ]  # fmt: skip
+    if can_end_step:
+        assert [(step.call, step.id) for step in plan.steps] == before
+    for _ in range(3):
+        engine.finish()
+    assert states(plan) == ["finished"] * 3, "nothing was left out"
+
+
 def test_skip_without_the_command_for_steps_restarts_the_rest(engine: Engine) -> None:
     numbers = itertools.count()
     plan = TargetPlan("A", new_graph_name=lambda: f"graph_{next(numbers)}", can_end_step=lambda: False)

@@ -226,7 +226,7 @@ MOVES = st.one_of(
     st.tuples(st.sampled_from(["true", "true", "false", "fail", "absent"]), st.integers(0, 3)),
     st.tuples(st.sampled_from(["command", "event", "feedback", "loop", "settle"]), st.just(0)),
     st.tuples(st.sampled_from(["pause", "start", "skip", "clear", "give_up"]), st.just(0)),
-    st.tuples(st.sampled_from(["pop", "correct", "edit"]), st.integers(0, 4)),
+    st.tuples(st.sampled_from(["pop", "correct", "edit", "undo"]), st.integers(0, 4)),
 )
 
 
@@ -242,6 +242,7 @@ async def _move(rig: Rig, kind: str, value: Any) -> None:
         "pop": lambda: plan.pop(value),
         "correct": lambda: plan.correct([rig.call() for _ in range(value % 3)]),
         "edit": lambda: plan.edit([rig.call() for _ in range(value)]),
+        "undo": lambda: plan.edit([rig.call() for _ in range(value)], {step.id for step in plan.steps}),
     }
     if kind in orders:
         rig.take(orders[kind]())

@@ -151,8 +151,8 @@ export const commandMission = (id: string, command: MissionCommand, wish: { robo
   request<unknown>('POST', `missions/${part(id)}/command`, { command, ...wish });
 export const putPolicy = (robot: string, policy: Policy) =>
   request<unknown>('PUT', `plans/${part(robot)}/policy`, { policy });
-export const putSteps = (robot: string, steps: readonly ActionCall[], revision: number) =>
-  request<unknown>('PUT', `plans/${part(robot)}/steps`, { steps, revision });
+export const putSteps = (robot: string, steps: readonly ActionCall[], revision: number, undoes?: readonly string[]) =>
+  request<unknown>('PUT', `plans/${part(robot)}/steps`, { steps, revision, undoes });
 
 export const getRules = (language: string) => request<RulesAnswer>('GET', `rules?language=${part(language)}`);
 export const putRule = (rule: Rule, language: string) =>

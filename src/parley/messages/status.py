@@ -277,6 +277,9 @@ class PlanDecision(Payload):
     the plan in progress that have not begun."""
     revision: int | None = None
     """For an `edit` of the plan in progress: the `PlanUpdate.revision` it was made from; refused if past."""
+    undoes: tuple[str, ...] = ()
+    """For an `edit` of the plan in progress: the ids of steps that are over, or being done, and are among
+    `steps` anew. What is being done is ended first; none of them is among those that were left out."""
     policy: Literal["run_at_once", "ask_when_risky", "ask_first", ""] = ""
     """For `policy`; `ask_when_risky` asks when a step's risk is `high`."""
     digest: str = ""

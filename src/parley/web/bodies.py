@@ -398,6 +398,8 @@ class StepsPut(WebModel):
     steps: Annotated[tuple[ActionCall, ...], Field(max_length=200)]
     revision: Annotated[int, Field(ge=0)]
     """`PlanView.revision` that the edit was made from."""
+    undoes: Annotated[tuple[str, ...], Field(max_length=200)] = ()
+    """`StepView.planned` of steps that are over, or being done, and are among `steps` anew."""
 
 
 class RobotPost(WebModel):

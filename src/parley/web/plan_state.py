@@ -323,8 +323,8 @@ def _not_begun(update: PlanUpdate) -> list[tuple[str, ActionCall]]:
 
 def _changed(before: PlanView, steps: Sequence[StepView]) -> tuple[str, ...]:
     """Ids of steps that are new or have other parameters; kept until the plan is altered again."""
-    old = {step.id: step.call for step in before.steps}
-    new = [step.id for step in steps if old.get(step.id) != step.call]
+    old = {step.planned or step.id: step.call for step in before.steps}
+    new = [step.id for step in steps if old.get(step.planned or step.id) != step.call]
     is_same = not new and len(steps) == len(before.steps)
     return before.changed if is_same else tuple(new)
 

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 
 import { ability, step } from '@/live/samples';
 
-import { addables, callsOf, editable, inputsOf, moved, nameOfAction, newStep, nudged, pendingSteps, putBack, setInput, toDrafts, type DraftStep } from './editing';
+import { addables, callsOf, editable, inputsOf, moved, nameOfAction, newStep, nudged, pendingSteps, setInput, toDrafts, type DraftStep } from './editing';
 
 const toDraft = (one: ReturnType<typeof step>) => toDrafts([one])[0] as DraftStep;
 const drafts = ['a', 'b', 'c'].map((id) => toDraft(step({ id })));
@@ -77,30 +77,6 @@ describe('changing a plan', () => {
   it('says of a changed step what it is changed to', () => {
     const draft = toDraft(step({ id: 'a', label: 'Mine kohta “box”', inputs: [{ name: 'what', type: 'string', value: 'box' }] }));
     expect(setInput(draft, 'what', 'door').label).toBe('Mine kohta “door”');
-  });
-
-  it('puts a step back where it stood, however many have begun meanwhile', () => {
-    const steps = ['a', 'b', 'c', 'd'].map((id) => step({ id, risk: 'looks_and_speaks', call: { [id]: {} } }));
-    const [, b, c, d] = steps;
-    if (!b || !c || !d) throw new Error('there are four');
-    const renamed = { ...d, id: 'd2' };
-    expect(ids(putBack([b], steps, [c, renamed]))).toBe('bcd2');
-    expect(ids(putBack([b, c], steps, [renamed]))).toBe('bcd2');
-    expect(ids(putBack([b], steps, [renamed]))).toBe('bd2');
-    expect(ids(putBack([d], steps, []))).toBe('d');
-  });
-
-  it('puts nothing between a way and what is done at its end', () => {
-    const looks = (id: string) => step({ id, risk: 'looks_and_speaks', call: { [id]: {} } });
-    const [ways, sights] = [['A', 'B', 'C'].map((id) => step({ id, call: { [id]: {} } })), ['a', 'b', 'c'].map(looks)];
-    const steps = ways.flatMap((way, at) => [way, sights[at] ?? way]);
-    expect(ids(steps)).toBe('AaBbCc');
-    const [wayA, seeA] = steps;
-    if (!wayA || !seeA) throw new Error('there are six');
-    // B is on its way: what is done there comes first, and nobody looks at A from B.
-    expect(ids(putBack([wayA], steps, steps.slice(3)))).toBe('bACc');
-    expect(ids(putBack([seeA], steps, steps.slice(3)))).toBe('bAaCc');
-    expect(ids(putBack([seeA], steps, steps.slice(5)))).toBe('cAa');
   });
 
   it('lets people write words, not coordinates', () => {

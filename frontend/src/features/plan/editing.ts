@@ -155,33 +155,3 @@ const PLACE = /(?:^|::)(?:position|orientation)::/;
 
 /** Inputs a person can write down: words, numbers and yes or no; places come from other steps. */
 export const editable = (input: ParameterView) => ['string', 'number', 'bool'].includes(input.type) && !PLACE.test(input.name);
-
-/**
- * Steps that were taken out, put where they stood. Where the robot has left for another place meanwhile, what is done
- * there comes first, and who is to look somewhere goes there again: the way belongs to what is done at its end.
- */
-export function putBack(gone: readonly StepView[], before: readonly StepView[], now: readonly StepView[]): readonly StepView[] {
-  const [first, last] = [gone[0], gone.at(-1)];
-  if (!first || !last) return now;
-  const sameCall = (one: StepView) => (other: StepView) => JSON.stringify(one.call) === JSON.stringify(other.call);
-  const waits = (one: StepView) => now.some(sameCall(one));
-  const behind = before.slice(before.findIndex((one) => one.id === last.id) + 1);
-  const next = behind.findIndex(waits);
-  const left = behind.slice(0, next < 0 ? behind.length : next).some(goesAway);
-  const successor = behind[next];
-  const place = left ? now.findIndex(goesAway) : successor ? now.findIndex(sameCall(successor)) : -1;
-  const at = place < 0 ? now.length : place;
-  const way = left && !goesAway(first) ? wayTo(first, before) : [];
-  return [...now.slice(0, at), ...way, ...gone, ...now.slice(at)];
-}
-
-const goesAway = (step: StepView) => step.only_finds || step.risk === 'moves';
-
-/** The last steps before one that took the robot to where it is done. */
-function wayTo(step: StepView, before: readonly StepView[]): readonly StepView[] {
-  const earlier = before.slice(0, before.findIndex((one) => one.id === step.id));
-  const end = earlier.findLastIndex((one) => one.risk === 'moves');
-  if (end < 0) return [];
-  const start = earlier.slice(0, end).findLastIndex((one) => !one.only_finds) + 1;
-  return earlier.slice(start, end + 1);
-}

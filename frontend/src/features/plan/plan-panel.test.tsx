@@ -101,19 +101,19 @@ describe('the plan', () => {
     expect(screen.queryByText('Go to')).toBeNull();
   });
 
-  it.each<[string, object, string, string[], string[]]>([
-    ['Cancel all', { command: 'clear' }, '3 steps were cancelled.', [], ['Two', 'Three', 'Four']],
-    ['Skip', { command: 'skip', step: 'two' }, '“Two” is left out.', ['three', 'four'], ['Two', 'Three', 'Four']],
-  ])('puts back what was lost by: %s', async (button, body, said, left, again) => {
+  it.each<[string, object, string, Record<string, StepState>, string[], string[]]>([
+    ['Cancel all', { command: 'clear' }, '3 steps were cancelled.', {}, ['Two', 'Three', 'Four'], ['two', 'three', 'four']],
+    ['Skip', { command: 'skip', step: 'two' }, '“Two” is left out.', { two: 'skipped', three: 'running', four: 'queued' }, ['Two', 'Three', 'Four'], ['two', 'three']],
+  ])('puts back what was lost by: %s', async (button, body, said, left, again, undoes) => {
     const user = show();
     await user.click(screen.getByRole('button', { name: button }));
     expect(sent).toEqual([{ method: 'POST', path: '/api/plans/Ada/command', body }]);
     const toast = useToasts.getState().toasts[0];
     expect(toast?.message).toBe(said);
-    const now = steps.filter((one) => left.includes(one.id));
+    const now = steps.flatMap((one) => (left[one.id] ? [{ ...one, state: left[one.id] ?? one.state }] : []));
     act(() => useLive.getState().takeChanges([{ kind: 'plan', seq: 1, plan: plan({ robot: 'Ada', revision: 9, steps: now }) }]));
     toast?.action?.run();
-    expect(sent[1]).toEqual({ method: 'PUT', path: '/api/plans/Ada/steps', body: { steps: again.map(call), revision: 9 } });
+    expect(sent[1]).toEqual({ method: 'PUT', path: '/api/plans/Ada/steps', body: { steps: again.map(call), revision: 9, undoes } });
   });
 
   it('does not say that a step is left out, nor puts it back, that was done before that was heard', async () => {
@@ -132,7 +132,7 @@ describe('the plan', () => {
     await user.click(screen.getByRole('button', { name: 'Cancel all' }));
     become(4, { two: 'finished', three: 'skipped', four: 'skipped' });
     useToasts.getState().toasts[0]?.action?.run();
-    expect(sent.at(-1)?.body).toEqual({ steps: ['Three', 'Four'].map(call), revision: 9 });
+    expect(sent.at(-1)?.body).toEqual({ steps: ['Three', 'Four'].map(call), revision: 9, undoes: ['three', 'four'] });
   });
 
   it('puts back into a plan that moves on just then what it is by then', async () => {
@@ -145,7 +145,7 @@ describe('the plan', () => {
     status = 200;
     moveOn(1);
     await vi.waitFor(() => expect(sent).toHaveLength(3));
-    expect(sent[2]?.body).toEqual({ steps: ['Two', 'Four'].map(call), revision: 8 });
+    expect(sent[2]?.body).toEqual({ steps: ['Two', 'Four'].map(call), revision: 8, undoes: ['two'] });
     expect(useToasts.getState().toasts.filter(({ tone }) => tone === 'error')).toEqual([]);
   });
 

@@ -7,7 +7,8 @@ import { explain } from '@/state/do';
 import { useToasts } from '@/state/toasts';
 import { quoted, sentence } from '@/ui/words';
 
-import { pendingSteps, putBack } from './editing';
+import { pendingSteps } from './editing';
+import { putBack } from './putting-back';
 import type { Line } from '@/live/lines';
 
 type Outcome = 'saved' | 'refused' | 'conflict';
@@ -54,13 +55,14 @@ export function usePutBack(plan: PlanView) {
     const out = () => gone.filter((_, at) => !isDone(plan.robot, gone.slice(at).find((step) => !step.only_finds)));
     const stands = () => out().length > 0;
     const undo = async (tries = TRIES): Promise<void> => {
-      const now = ownPlan(plan.robot) ?? plan;
-      const still = now === plan ? [] : pendingSteps(now.steps);
+      const now = ownPlan(plan.robot);
+      const revision = (now ?? plan).revision;
+      const { steps, undoes } = putBack(out(), plan.steps, now?.steps ?? []);
       try {
-        await putSteps(plan.robot, putBack(out(), plan.steps, still).map(callOf), now.revision);
+        await putSteps(plan.robot, steps.map(callOf), revision, undoes);
       } catch (error) {
         if (tries <= 1 || !isConflict(error)) throw error;
-        await movedOn(plan.robot, now.revision);
+        await movedOn(plan.robot, revision);
         await undo(tries - 1);
       }
     };

@@ -236,9 +236,8 @@ class Decisions:
             self._plans.refuse(topics.PLAN_DECISION.name, target, [problem])
             self._undone(decision, orders.PLAN_CHANGED, past=True)
             return
-        free = {id(step) for step in plan.not_begun}
-        begun = [index for index, step in enumerate(plan.steps) if id(step) not in free]
-        known, catalogue = [plan.steps[index] for index in begun], self._plans.catalogue(target)
+        known, catalogue = plan.staying(decision.undoes), self._plans.catalogue(target)
+        begun = [index for index, step in enumerate(plan.steps) if step in known]
         calls, problems = rebased(decision.steps, listed(plan.steps), begun)
         if not problems:
             calls = complete_calls(calls, catalogue, known=len(known))
@@ -246,7 +245,7 @@ class Decisions:
         if problems:
             self._refuse_edit(plan, decision, decision.steps, problems)
         else:
-            self._plans.send(plan, plan.edit(calls))
+            self._plans.send(plan, plan.edit(calls, decision.undoes))
             self._presses.over(decision.press)
 
     def _set_policy(self, target: str, policy: Policy | Literal[""]) -> None:

@@ -12,14 +12,14 @@ its reports in `reports`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import Final
 
 from parley.agents.planner.effects import Effect, PauseGraph, ResumeGraph, Say, StopGraph
 from parley.agents.planner.flow import shifted, steps_of
 from parley.agents.planner.reports import Reports
 from parley.agents.planner.state import GOING, PlanState
-from parley.agents.planner.steps import ACTIVE_STATES, OPEN_STATES, Step, When, with_givers
+from parley.agents.planner.steps import ACTIVE_STATES, OPEN_STATES, Step, When, new_id, with_givers
 from parley.agents.planner.sync import KEEP_DONE, Sync
 from parley.messages.chat import ActionCall, SystemCommand
 from parley.sentences import sentence
@@ -79,19 +79,37 @@ class TargetPlan(PlanState):
             return []
         return self._sync.start() if over else self._sync.push()
 
-    def edit(self, calls: Sequence[ActionCall]) -> list[Effect]:
+    def edit(self, calls: Sequence[ActionCall], undoes: Collection[str] = ()) -> list[Effect]:
         """Put `calls` in the place of all steps that have not begun.
 
         Args:
-            calls: Their flows count the steps that have begun, in order, and then `calls`.
+            calls: Their flows count the steps that stay, in order, and then `calls`.
+            undoes: Ids of steps that are among `calls` anew; what is being done of them makes way.
         """
-        over, free = self._over, {id(step) for step in self.not_begun}
-        begun = [step for step in self.steps if id(step) not in free]
-        orders = {step.order for step in self.steps if id(step) in free}
-        self.steps = [*begun, *steps_of(calls, begun, begun)]
-        for step in self.steps[len(begun) :] if len(orders) == 1 else ():
-            (step.order,) = orders
-        return self._sync.start() if over and calls else self._sync.push()
+        over, stays = self._over and not (undoes and self.run == "halted"), self.staying(undoes)
+        others = [step for step in self.steps if step not in stays]
+        new, left, orders = steps_of(calls, stays, stays), [*others], {step.order for step in others}
+        for step in new:
+            if len(orders) == 1:
+                (step.order,) = orders
+            if (same := next((old for old in left if old.call == step.call), None)) is not None:
+                left.remove(same)
+                step.id, step.words, step.order = same.id, same.words, same.order
+        past = [step for step in others if step.state != "queued"]
+        for step in past:
+            step.taken_back, step.id = True, new_id()
+        self.steps = [*stays, *past, *new]
+        makes_way = [step for step in past if step.state in ACTIVE_STATES]
+        for step in makes_way:
+            step.ending = True
+        self.forget_taken_back()
+        effects = self._sync.start() if over and calls else self._sync.push()
+        return [*effects, *(effect for step in makes_way for effect in self._sync.end(step))]
+
+    def staying(self, undoes: Collection[str] = ()) -> list[Step]:
+        """The steps that an edit leaves as they are."""
+        free = {id(step) for step in self.not_begun}
+        return [step for step in self.steps if id(step) not in free and step.id not in undoes]
 
     @property
     def _over(self) -> bool:

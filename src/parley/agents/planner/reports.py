@@ -78,7 +78,9 @@ class Reports:
         state = graph.state
         if answered and not any(node.state in ACTIVE for node in graph.nodes):
             state = GraphState.HALTED  # the reference's last word after an error is that the graph runs (D17)
-        return effects + self._end_strays(graph) + self._on_graph_state(state)
+        effects += self._end_strays(graph) + self._on_graph_state(state)
+        self._plan.forget_taken_back()
+        return effects
 
     def on_outputs(self, graph_name: str, node: str, outputs: dict[str, Any]) -> None:
         """Remember what a step gave, for steps that have to be run again apart from it."""

@@ -137,6 +137,11 @@ class PlanState:
         self.leave_out_excluded()
         self.steps = without_orphans(self.steps)
 
+    def forget_taken_back(self) -> None:
+        """Drop the steps that others stand for, once they are over."""
+        if not any(step.taken_back and step.state in OPEN_STATES for step in self.steps):
+            self.steps = [step for step in self.steps if not step.taken_back]
+
     def front(self) -> list[Step]:
         """The group of steps that comes next, or that runs: those of it that are still to be done."""
         for group in stages(self.steps):

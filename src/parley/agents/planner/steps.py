@@ -13,8 +13,8 @@ from parley.umrf.model import NodeState
 
 __all__ = [
     "ACTIVE_NODES", "ACTIVE_STATES", "GONE_CODES", "KEPT_LATCHED", "LATCHED", "OPEN_STATES", "RunState",
-    "Step", "StepState", "When", "failure_message", "fill_inputs", "handed_over", "known_outputs", "previous",
-    "stages", "verdict", "with_givers", "with_values", "without_orphans",
+    "Step", "StepState", "When", "failure_message", "fill_inputs", "handed_over", "known_outputs", "new_id",
+    "previous", "stages", "verdict", "with_givers", "with_values", "without_orphans",
 ]  # fmt: skip
 
 StepState = Literal["queued", "running", "finished", "failed", "stopped", "skipped", "paused", "waiting"]
@@ -42,6 +42,11 @@ KEPT_LATCHED: Final = (
 """The same, when there is something new to do."""
 
 
+def new_id() -> str:
+    """What a step is called that nothing else was called before."""
+    return uuid.uuid4().hex[:12]
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class When:
     """A condition: `step` ended with `result`."""
@@ -65,6 +70,8 @@ class Step:
     """Inputs without a value of their own that the steps right before hand over."""
     ending: bool = False
     """The operator skipped it while it ran; its end is awaited."""
+    taken_back: bool = False
+    """Another step stands for it from now on; it is forgotten once nothing of the kind is being done."""
     when: When | None = None
     """It runs only if this holds."""
     together: object = field(default_factory=object)
@@ -77,7 +84,7 @@ class Step:
     """It failed as it saw what people have to know: who goes on from there leaves nothing out."""
     upset: bool = False
     """A step beside it failed, which stops this one: what it did does not count unless it was done."""
-    id: str = field(default_factory=lambda: uuid.uuid4().hex[:12])
+    id: str = field(default_factory=new_id)
     """What it is called as long as the plan has it, whatever stands before it."""
     words: str = ""
     """By which words of a person it came into the plan."""

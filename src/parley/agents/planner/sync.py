@@ -65,7 +65,7 @@ class Sync:
             if step.state in OPEN_STATES:
                 step.again()
         fill_inputs(self._plan.steps)
-        waiting = [step for step in self._plan.steps if step.state == "queued"]
+        waiting = [step for step in self._plan.steps if step.state == "queued" and not step.taken_back]
         there = {id(step) for step in waiting}
         for step in waiting:
             if step.when is not None and id(step.when.step) not in there:

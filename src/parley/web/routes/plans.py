@@ -109,7 +109,13 @@ async def put_steps(robot: Robot, put: StepsPut, web: Web, who: Who) -> Done:
         raise WebProblem(
             409, "The plan has changed meanwhile.", "Look at it and change it again.", path="revision"
         )
-    await web.outbox.press_through(
-        PlanDecision(target=name, decision="edit", steps=put.steps, revision=put.revision, by=who.by)
+    edit = PlanDecision(
+        target=name,
+        decision="edit",
+        steps=put.steps,
+        revision=put.revision,
+        undoes=put.undoes,
+        by=who.by,
     )
+    await web.outbox.press_through(edit)
     return Done()
