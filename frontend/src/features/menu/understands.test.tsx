@@ -1,6 +1,7 @@
-import { render, screen } from '@testing-library/react';
+import { act, render, screen } from '@testing-library/react';
 import userEvent from '@testing-library/user-event';
 import { expect, it, vi } from 'vitest';
+import { navigate } from 'wouter/use-browser-location';
 
 import { network, type Asked } from '@/gallery/network';
 import { snapshot } from '@/live/samples';
@@ -19,6 +20,10 @@ it('offers a model that is here with how to use it, until that was put away; not
   unmount();
   useLive.getState().takeSnapshot(plain);
   render(<ModelNote />);
+  await screen.findByText(/qwen3:8b \(Ollama\)\. It is not used/);
+  act(() => navigate('/settings'));
+  expect(screen.queryByText(/Ollama/)).toBeNull();
+  act(() => navigate('/'));
   await screen.findByText(/qwen3:8b \(Ollama\)\. It is not used/);
   screen.getByText('--language auto:ollama:qwen3:8b');
   await user.click(screen.getByRole('button', { name: 'Not now' }));

@@ -1,6 +1,6 @@
 import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
-import { Link } from 'wouter';
+import { Link, useRoute } from 'wouter';
 
 import { getModels, putModel } from '@/live/api';
 import { useWorld } from '@/live/store';
@@ -43,8 +43,10 @@ function useOffers(wanted: boolean): readonly ModelOffer[] {
 export function ModelNote() {
   const { t } = useTranslation('menu');
   const { modelNoted, set } = usePrefs();
-  const [offer] = useOffers(!modelNoted);
-  if (!offer || modelNoted) return null;
+  const [isAmongSettings] = useRoute(pathOf('settings')); // there it stands anyway
+  const isWanted = !modelNoted && !isAmongSettings;
+  const [offer] = useOffers(isWanted);
+  if (!offer || !isWanted) return null;
   return (
     <div className={css.offer}>
       <Offer offer={offer} />

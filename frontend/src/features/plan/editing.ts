@@ -126,7 +126,7 @@ const filled = (step: DraftStep, template: string) =>
 /** The server's label with a value changed in it; each language has quotation marks of its own. */
 function renamed(label: string, before: unknown, value: Value): string {
   if (before === null || before === undefined) return label;
-  const marks = ['“”', '„“'].find(([open, close]) => label.includes(`${open}${String(before)}${close}`));
+  const marks = ['“”', '„“', '„”', '«»', '»«', '””', '""'].find(([open, close]) => label.includes(`${open}${String(before)}${close}`));
   const [open = '', close = ''] = typeof before === 'string' ? (marks ?? '“”') : '';
   return label.replace(`${open}${String(before)}${close}`, () => `${open}${String(value)}${close}`);
 }
