@@ -166,6 +166,29 @@ describe.skipIf(!hasBrowser)('an operator with a plan', () => {
     await expect.poll(() => steps(one).locator('li[data-state="queued"]').count(), { timeout: PATIENCE_MS }).toBe(count - 1);
   });
 
+  it('keeps what is being changed while the server is killed, and drops no step that waits again', async () => {
+    await policy('run_at_once');
+    const page = await stage.open(sizes.desktop);
+    await say(page, 'cancel everything');
+    await say(page, TASK);
+    await steps(page).locator('li[data-state="running"]').waitFor();
+    await page.getByRole('button', { name: 'Pause', exact: true }).click();
+    const paused = steps(page).locator('li[data-state="paused"]');
+    const interrupted = (await paused.getByRole('button').first().textContent())?.split('”')[0] ?? '?';
+    await page.getByRole('button', { name: 'Change', exact: true }).click();
+    const rows = page.getByRole('row');
+    const count = await rows.count();
+    await rows.first().getByRole('button', { name: /^Remove/ }).click();
+    await stage.system.kill();
+    await page.getByText(/^The connection is lost/).waitFor();
+    await stage.system.start();
+    await steps(page).locator('li[data-state="queued"]').filter({ hasText: interrupted }).waitFor();
+    expect(await rows.count()).toBe(count - 1);
+    await page.getByRole('button', { name: 'Save' }).click();
+    await page.getByText('The plan was changed.').first().waitFor();
+    await expect.poll(() => steps(page).locator('li[data-state="queued"]').count(), { timeout: PATIENCE_MS }).toBe(count);
+  });
+
   it('stops it while it drives, and lets it carry on afterwards', async () => {
     await policy('run_at_once');
     const page = await stage.open(sizes.tablet);

@@ -1,6 +1,7 @@
 import { cleanup } from '@testing-library/react';
 import { afterEach, beforeAll, beforeEach } from 'vitest';
 
+import { useKeptEdits } from './features/plan/lasting';
 import { startWords } from './i18n';
 import { useLive } from './live/store';
 import { useSelectionStore } from './state/selection';
@@ -28,6 +29,7 @@ beforeEach(() => {
   localStorage.clear();
   useLive.setState(useLive.getInitialState(), true);
   useSelectionStore.setState(useSelectionStore.getInitialState(), true);
+  useKeptEdits.setState({}, true);
   useToasts.setState(useToasts.getInitialState(), true);
 });
 

@@ -366,7 +366,22 @@ async def test_revision_grows_with_each_change() -> None:
         await party.state("running")
         await party.state("idle")
         seen = [item["revision"] for item in party.wire.objects(topics.PLAN)]
-        assert seen == list(range(1, len(seen) + 1))
+        assert seen == list(range(seen[0], seen[0] + len(seen)))
+
+
+async def test_edit_of_a_plan_as_it_was_before_a_restart_is_refused() -> None:
+    async with crew("A") as party:
+        await begun(party, look("door"), look("lid"))
+        party.command("stop")
+        await party.state("paused")
+        revision = party.observer.plans["A"].revision
+        party.body.gate("box").set()
+    async with crew("A") as party:
+        await begun(party, look("door"))
+        decide(party, decision="edit", steps=[], revision=revision)
+        await party.hears("The plan has changed in the meantime")
+        assert shown(party) == ["box", "door"]
+        party.body.gate("box").set()
 
 
 async def test_step_is_shown_as_waiting_while_its_question_is_open() -> None:

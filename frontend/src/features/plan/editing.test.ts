@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 
 import { ability, step } from '@/live/samples';
 
-import { addables, callsOf, editable, inputsOf, moved, nameOfAction, newStep, nudged, pendingSteps, setInput, toDrafts, type DraftStep } from './editing';
+import { addables, callsOf, editable, inputsOf, moved, nameOfAction, newStep, nudged, pendingSteps, setInput, sinceThen, toDrafts, type DraftStep } from './editing';
 
 const toDraft = (one: ReturnType<typeof step>) => toDrafts([one])[0] as DraftStep;
 const drafts = ['a', 'b', 'c'].map((id) => toDraft(step({ id })));
@@ -12,6 +12,19 @@ describe('changing a plan', () => {
   it('offers only steps that have not begun', () => {
     const steps = [step({ id: 'a', state: 'finished' }), step({ id: 'b', state: 'running' }), step({ id: 'c' })];
     expect(ids(pendingSteps(steps))).toBe('c');
+  });
+
+  it('knows the steps again after a restart, and which of them wait once more', () => {
+    const named = (ids: string, planned = '') => [...ids].map((id) => step({ id, planned: planned + id, label: id }));
+    const [first, ...rest] = named('abc');
+    if (!first) throw new Error('there are three');
+    const then = [{ ...first, state: 'running' as const }, ...rest];
+    const after = sinceThen(then, named('abc', 'new '));
+    expect([after.isSame, ids(after.again), after.begun.size]).toEqual([true, 'a', 0]);
+    expect(sinceThen(then, named('acb', 'new ')).isSame).toBe(false);
+    expect(sinceThen(then, named('abcd', 'new ')).isSame).toBe(false);
+    const later = sinceThen(then, [{ ...first, state: 'finished' }, { ...(rest[0] ?? first), state: 'running' }, ...rest.slice(1)]);
+    expect([later.isSame, later.again, [...later.begun]]).toEqual([true, [], ['b']]);
   });
 
   it('moves steps before and behind others', () => {

@@ -20,14 +20,30 @@ export interface DraftStep {
 /** Steps that may still be changed: those that have not begun. */
 export const pendingSteps = (steps: readonly StepView[]) => steps.filter((step) => step.state === 'queued');
 
-/** Which of the steps that could be changed have begun since, and whether nothing else is otherwise. */
+/**
+ * Which of the steps that could be changed have begun since, which of the others that had begun then wait again, as after a
+ * restart, and whether nothing else is otherwise.
+ */
 export function sinceThen(then: readonly StepView[], now: readonly StepView[]) {
-  const key = (step?: StepView) => step && (step.planned || step.id);
-  const begun = pendingSteps(then).filter((step) => now.some((one) => key(one) === key(step) && one.state !== 'queued'));
-  const [left, still] = [pendingSteps(then).filter((step) => !begun.includes(step)), pendingSteps(now)];
+  const known = new Map<StepView, StepView>();
+  const pair = (isSame: (one: StepView, other: StepView) => boolean) => {
+    const left = new Set(then.filter((one) => ![...known.values()].includes(one)));
+    for (const step of now.filter((one) => !known.has(one))) {
+      const same = [...left].find((one) => isSame(one, step));
+      if (same) known.set(step, same);
+      if (same) left.delete(same);
+    }
+  };
+  pair((one, other) => (one.planned || one.id) === (other.planned || other.id));
+  pair((one, other) => one.action === other.action && one.label === other.label); // after a restart they have other ids
+  const isBegun = (step: StepView) => now.some((one) => known.get(one) === step && one.state !== 'queued');
+  const [begun, left] = [pendingSteps(then).filter(isBegun), pendingSteps(then).filter((step) => !isBegun(step))];
+  const again = pendingSteps(now).filter((one) => (known.get(one)?.state ?? 'queued') !== 'queued');
+  const still = pendingSteps(now).filter((one) => !again.includes(one));
   return {
     begun: new Set(begun.map((step) => step.id)),
-    isSame: left.length === still.length && left.every((step, at) => key(step) === key(still[at])),
+    again,
+    isSame: left.length === still.length && still.every((step, at) => known.get(step) === left[at]),
   };
 }
 

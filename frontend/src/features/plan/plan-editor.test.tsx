@@ -12,8 +12,8 @@ import { PlanEditor } from './plan-editor';
 const draft = (label: string): DraftStep => ({ id: label, label, action: label, inputs: [], call: { [label]: {} }, finding: [] });
 
 const edit = (...labels: string[]) => {
-  const onSave = vi.fn(() => Promise.resolve());
-  render(<PlanEditor robot="Ada" steps={labels.map(draft)} saveLabel="Save" onSave={onSave} onCancel={vi.fn()} />);
+  const onSave = vi.fn(() => Promise.resolve(true));
+  render(<PlanEditor id="one" robot="Ada" steps={labels.map(draft)} saveLabel="Save" onSave={onSave} onCancel={vi.fn()} />);
   return { user: userEvent.setup(), saved: () => (onSave.mock.calls.flat(2) as object[]).flatMap(Object.keys) };
 };
 

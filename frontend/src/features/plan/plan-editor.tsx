@@ -11,10 +11,13 @@ import { quoted } from '@/ui/words';
 
 import { addables, callsOf, moved, nameOfAction, newStep, nudged, setInput, without, type DraftStep } from './editing';
 import { EditorRow } from './editor-row';
+import { forget, useKeptEdits, useLasting } from './lasting';
 import { nothing, placesOf, type Places } from './place-picker';
 import css from './plan-editor.module.css';
 
 interface Props {
+  /** What is being changed: what came of it so far is kept under this name until it is saved or given up. */
+  id: string;
   robot: string;
   steps: readonly DraftStep[];
   /** How many stand before them. */
@@ -22,7 +25,8 @@ interface Props {
   /** By id those that have begun since: they can be changed no more. */
   begun?: ReadonlySet<string>;
   saveLabel: string;
-  onSave: (calls: readonly ActionCall[]) => Promise<void>;
+  /** Whether it is done with. */
+  onSave: (calls: readonly ActionCall[]) => Promise<boolean>;
   onCancel: () => void;
 }
 
@@ -36,24 +40,24 @@ const NONE: ReadonlySet<string> = new Set();
 const NO_ACTIONS: readonly AbilityView[] = [];
 
 /** Steps to be put in order, changed, removed and added. */
-export function PlanEditor({ robot, steps: initial, before = 0, begun = NONE, saveLabel, onSave, onCancel }: Props) {
+export function PlanEditor({ id, robot, steps: initial, before = 0, begun = NONE, saveLabel, onSave, onCancel }: Props) {
   const { t } = useTranslation(['plan', 'common']);
-  const [drafts, setSteps] = useState(initial);
+  const [drafts, setSteps] = useLasting(`${id} steps`, initial);
   const steps = useMemo(() => without(drafts, begun), [drafts, begun]);
-  const [added, setAdded] = useState(0);
+  const [added, setAdded] = useLasting(`${id} added`, 0);
   const [busy, setBusy] = useState(false);
-  const [removed, setRemoved] = useState<Removed | null>(null);
+  const [removed, setRemoved] = useLasting<Removed | null>(`${id} removed`, null);
   const catalogue = useWorld((world) => world.robots[robot]?.catalogue ?? NO_ACTIONS);
 
   const choices = useMemo(() => addables(catalogue), [catalogue]);
   const places = usePlaces(robot);
-  const box = useInView();
+  const box = useInView(id);
 
   const { dragAndDropHooks } = useDragAndDrop({
     getItems: (keys) => [...keys].map((key) => ({ 'text/plain': steps.find((step) => step.id === key)?.label ?? '' })),
     onReorder: ({ keys, target }) => {
       const where = target.dropPosition === 'after' ? 'after' : 'before';
-      setSteps((now) => moved(now, new Set([...keys].map(String)), String(target.key), where));
+      setSteps(moved(drafts, new Set([...keys].map(String)), String(target.key), where));
     },
   });
 
@@ -76,12 +80,17 @@ export function PlanEditor({ robot, steps: initial, before = 0, begun = NONE, sa
 
   const save = async () => {
     setBusy(true);
-    await onSave(callsOf(steps));
+    if (await onSave(callsOf(steps))) forget(id);
     setBusy(false);
   };
 
-  const change = (id: Key, name: string, value: string | number | boolean) =>
-    setSteps(steps.map((step) => (step.id === id ? setInput(step, name, value) : step)));
+  const cancel = () => {
+    forget(id);
+    onCancel();
+  };
+
+  const change = (changed: Key, name: string, value: string | number | boolean) =>
+    setSteps(steps.map((step) => (step.id === changed ? setInput(step, name, value) : step)));
 
   return (
     <div className={css.editor} ref={box} tabIndex={-1} role="group" aria-label={t('editTitle')}>
@@ -127,7 +136,7 @@ export function PlanEditor({ robot, steps: initial, before = 0, begun = NONE, sa
             </>
           )}
         </div>
-        <Button onPress={onCancel}>{t('common:cancel')}</Button>
+        <Button onPress={cancel}>{t('common:cancel')}</Button>
         <Button tone="main" isDisabled={busy} onPress={() => void save()}>
           {saveLabel}
         </Button>
@@ -144,14 +153,17 @@ function usePlaces(robot: string): Places {
   return useMemo(() => (map ? placesOf(map) : nothing), [map]);
 }
 
-/** Brings what was opened to the top of where it stands, and takes the keyboard there. */
-function useInView() {
+/** Brings what was opened to the top of where it stands, and takes the keyboard there; not where it is shown again. */
+function useInView(id: string) {
   const box = useRef<HTMLDivElement>(null);
   useEffect(() => {
+    const name = `${id} opened`;
+    if (useKeptEdits.getState()[name]) return undefined;
+    useKeptEdits.setState({ [name]: true });
     box.current?.focus({ preventScroll: true });
     // The rows are drawn a moment later, and without them there is nowhere to scroll to.
     const frame = requestAnimationFrame(() => box.current?.scrollIntoView({ block: 'start' }));
     return () => cancelAnimationFrame(frame);
-  }, []);
+  }, [id]);
   return box;
 }

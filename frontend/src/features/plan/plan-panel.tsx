@@ -17,6 +17,7 @@ import { goesOn, isOf } from '@/live/missions';
 import { PlanBar } from './plan-bar';
 import { PlanEditor } from './plan-editor';
 import { isEarlier, linesOf, type Line } from '@/live/lines';
+import { useLasting } from './lasting';
 import { withReceived } from './parameters';
 import css from './plan-panel.module.css';
 import { PolicyChoice } from '@/ui/policy-choice';
@@ -70,11 +71,12 @@ const partKey = (plan: PlanView) => (plan.kind === 'plan' ? plan.robot : planKey
 function PlanOf({ plan }: { plan: PlanView }) {
   const { t } = useTranslation(['plan', 'common']);
   const proposals = useWorld((world) => world.proposals);
-  const [editing, setEditing] = useState<PlanView | null>(null);
+  const [editing, setEditing] = useLasting<PlanView | null>(`${partKey(plan)} base`, null);
   const waiting = plan.kind === 'plan' ? proposalsOf(proposals, plan.robot) : [];
   const pending = pendingSteps(plan.steps);
   const { lines, current, over } = useMemo(() => divided(plan), [plan]);
-  const { begun, isSame } = useMemo(() => sinceThen(editing?.steps ?? [], plan.steps), [editing, plan]);
+  const { begun, again, isSame } = useMemo(() => sinceThen(editing?.steps ?? [], plan.steps), [editing, plan]);
+  const changed = editing ? pending.filter((step) => !again.includes(step)).map((step) => step.id) : [];
   const close = () => setEditing(null);
   const save = useSaving();
   const remove = useRemoving(plan);
@@ -86,18 +88,21 @@ function PlanOf({ plan }: { plan: PlanView }) {
       <div className={css.scroller} tabIndex={0} role="region" aria-label={t('steps')}>
         <Together robot={plan.robot} />
         <Steps title={t('earlier')} from={0} lines={lines.slice(0, over)} plan={plan} isFolded={over < lines.length || waiting.length > 0} />
-        <Steps title={t('now')} from={over} lines={lines.slice(over)} plan={plan} isEditing={editing !== null} onRemove={remove} list={steps} />
+        <Steps title={t('now')} from={over} lines={lines.slice(over)} plan={plan} isChanged={(id) => changed.includes(id)} onRemove={editing ? undefined : remove} list={steps} />
         {editing && (
           <PlanEditor
             key={editing.revision}
+            id={`${partKey(plan)} ${editing.revision}`}
             robot={plan.robot}
             steps={toDrafts(pendingSteps(editing.steps))}
-            before={lines.filter(({ step }) => step.state !== 'queued').length}
+            before={lines.filter(({ step }) => !changed.includes(step.id)).length}
             begun={begun}
             saveLabel={t('common:save')}
             onSave={async (calls) => {
-              const outcome = await save(plan.robot, () => putSteps(plan.robot, calls, isSame ? plan.revision : editing.revision));
+              const all = [...again.map((step) => step.call ?? {}), ...calls];
+              const outcome = await save(plan.robot, () => putSteps(plan.robot, all, isSame ? plan.revision : editing.revision));
               if (outcome !== 'refused') close();
+              return outcome !== 'refused';
             }}
             onCancel={close}
           />
@@ -167,13 +172,14 @@ interface StepsProps {
   plan: PlanView;
   /** Whether only their number is shown until somebody wants to see them. */
   isFolded?: boolean;
-  isEditing?: boolean;
-  onRemove?: (line: Line) => void;
+  /** Whether it is shown where it is changed instead. */
+  isChanged?: (id: string) => boolean;
+  onRemove?: ((line: Line) => void) | undefined;
   list?: Ref<HTMLOListElement>;
 }
 
 /** Steps under a heading, in the order in which they are done. */
-function Steps({ title, from, lines, plan, isFolded = false, isEditing = false, onRemove, list }: StepsProps) {
+function Steps({ title, from, lines, plan, isFolded = false, isChanged = () => false, onRemove, list }: StepsProps) {
   const { t } = useTranslation('plan');
   const [open, setOpen] = useState(false);
   if (lines.length === 0) return null;
@@ -191,7 +197,7 @@ function Steps({ title, from, lines, plan, isFolded = false, isEditing = false, 
       {(open || !isFolded) && (
         <ol className={css.steps} ref={list} start={from + 1}>
           {lines.map((line, index) =>
-            isEditing && line.step.state === 'queued' ? null : (
+            isChanged(line.step.id) ? null : (
               <StepCard
                 key={line.step.id}
                 line={line}

@@ -11,6 +11,7 @@ import { quoted, sentence } from '@/ui/words';
 
 import { toDrafts } from './editing';
 import { linesOf } from '@/live/lines';
+import { useLasting } from './lasting';
 import { PlanEditor } from './plan-editor';
 import css from './proposal-card.module.css';
 import { StepCard } from './step-card';
@@ -18,14 +19,17 @@ import { StepCard } from './step-card';
 /** Steps that wait for a yes. */
 export function ProposalCard({ proposal }: { proposal: ProposalView }) {
   const { t } = useTranslation('plan');
-  const [editing, setEditing] = useState(false);
-  const ownRef = useNoticeWhenGone(proposal.id, editing);
+  // What is being changed is what was shown then: should it become something else, it is shown anew and asked again.
+  const [edited, setEdited] = useLasting<ProposalView | null>(`${proposal.id} shown`, null);
+  const ownRef = useNoticeWhenGone(proposal.id, edited !== null);
   const [busy, setBusy] = useState(false);
   const decide = async (decision: Omit<Decision, 'id' | 'digest'>) => {
     setBusy(true);
     ownRef.current = true;
-    ownRef.current = await attempt(() => decidePlan(proposal.robot, { id: proposal.id, digest: proposal.digest, ...decision }));
+    const { id, digest } = edited ?? proposal;
+    ownRef.current = await attempt(() => decidePlan(proposal.robot, { id, digest, ...decision }));
     setBusy(false);
+    return ownRef.current;
   };
   const lines = linesOf(proposal.steps);
   const title = t('proposalTitle', { robot: proposal.robot });
@@ -33,13 +37,14 @@ export function ProposalCard({ proposal }: { proposal: ProposalView }) {
     <section className={css.card} aria-label={title}>
       <h4>{title}</h4>
       {proposal.why && <p className={css.why}>{proposal.why}</p>}
-      {editing ? (
+      {edited ? (
         <PlanEditor
+          id={proposal.id}
           robot={proposal.robot}
-          steps={toDrafts(proposal.steps)}
+          steps={toDrafts(edited.steps)}
           saveLabel={t('approveChanged')}
           onSave={(steps) => decide({ decision: 'edit', steps })}
-          onCancel={() => setEditing(false)}
+          onCancel={() => setEdited(null)}
         />
       ) : (
         <>
@@ -47,7 +52,7 @@ export function ProposalCard({ proposal }: { proposal: ProposalView }) {
             <Button needs="approve" tone="main" icon="check" isDisabled={busy} onPress={() => void decide({ decision: 'approve' })}>
               {t('approve', { count: lines.length, what: sentence(lines[0]?.step.label ?? '') })}
             </Button>
-            <Button needs="approve" icon="edit" isDisabled={busy} onPress={() => setEditing(true)}>
+            <Button needs="approve" icon="edit" isDisabled={busy} onPress={() => setEdited(proposal)}>
               {t('change')}
             </Button>
             <Button needs="approve" icon="cross" isDisabled={busy} onPress={() => void decide({ decision: 'reject' })}>

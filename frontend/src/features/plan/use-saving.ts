@@ -4,7 +4,7 @@ import { ApiError, putSteps } from '@/live/api';
 import { useLive } from '@/live/store';
 import type { ActionCall, PlanView, StepView } from '@/live/types';
 import { explain } from '@/state/do';
-import { useToasts } from '@/state/toasts';
+import { untilReached, useToasts } from '@/state/toasts';
 import { quoted, sentence } from '@/ui/words';
 
 import { pendingSteps } from './editing';
@@ -23,6 +23,7 @@ const ownPlan = (robot: string) =>
 const isDone = (robot: string, meant: StepView | undefined) =>
   Boolean(meant?.planned) && ownPlan(robot)?.steps.some((step) => step.planned === meant?.planned && step.state === 'finished');
 
+const isUnreached = (error: unknown) => error instanceof ApiError && error.status === 0;
 const isConflict = (error: unknown) => error instanceof ApiError && error.status === 409;
 
 /** Sends changed steps and says what came of it; `conflict`: the plan has moved on meanwhile. */
@@ -39,7 +40,8 @@ export function useSaving() {
       const conflict = isConflict(error);
       const name = ownPlan(robot)?.graph_name;
       const stands = () => ownPlan(robot)?.graph_name === name && ownPlan(robot)?.state !== 'ended';
-      show({ tone: 'error', message: conflict ? t('conflict') : explain(error), stands: conflict ? stands : 'deed' });
+      const otherwise = isUnreached(error) ? untilReached() : 'deed';
+      show({ tone: 'error', message: conflict ? t('conflict') : explain(error), stands: conflict ? stands : otherwise });
       return conflict ? 'conflict' : 'refused';
     }
   };

@@ -104,14 +104,16 @@ class PlanBoard:
     Args:
         catalogue: What a robot can do, by its name.
         objects: What its map knows.
+        before: Revisions come after this one, and so after all that an earlier process counted.
     """
 
     def __init__(
         self,
         catalogue: Callable[[str], Sequence[ActionInfo]] = lambda _: (),
         objects: Callable[[str], Sequence[MapObject]] = lambda _: (),
+        before: int = 0,
     ) -> None:
-        self._catalogue, self._objects = catalogue, objects
+        self._catalogue, self._objects, self._before = catalogue, objects, before
         self._shown: dict[str, PlanUpdate] = {}
         self._known: dict[str, Sequence[ActionInfo]] = {}
         """What each robot could do when its steps were put into words: a robot may come after its plan."""
@@ -126,7 +128,7 @@ class PlanBoard:
     ) -> PlanUpdate | None:
         """The plan as it is to be published, or None if that would say nothing new."""
         before = self._shown.get(plan.target)
-        revision = before.revision if before is not None else 0
+        revision = before.revision if before is not None else self._before
         changes: dict[str, object] = {
             "policy": approvals.policy(plan.target), "revision": revision, "held_by": held_by,
         }  # fmt: skip

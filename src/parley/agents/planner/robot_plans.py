@@ -81,7 +81,7 @@ class RobotPlans:
         self.approvals, self.objects = approvals, objects
         self.settle = approvals.drop_settled
         """Forgets what waits for a yes and is over; looked at whenever a plan changes."""
-        self.board = PlanBoard(self.catalogue, objects)
+        self.board = PlanBoard(self.catalogue, objects, clock.unix_ms())
         self.held_by: dict[str, Principal] = {}
         """Who told each robot to stand still, until it goes on."""
         self.questions, self.left = OpenQuestions(), LeftGraphs()

@@ -1,0 +1,63 @@
+import { act, cleanup, render, screen, within } from '@testing-library/react';
+import userEvent from '@testing-library/user-event';
+import { beforeEach, describe, expect, it, vi } from 'vitest';
+
+import { network, type Asked } from '@/gallery/network';
+import { mapInfo, plan, robot, snapshot, step } from '@/live/samples';
+import { useLive } from '@/live/store';
+import type { PlanView, ProposalView } from '@/live/types';
+
+import { PlanPanel } from './plan-panel';
+
+const call = (name: string) => ({ [name]: { input_parameters: {}, output_parameters: {} } });
+const named = (...names: string[]) => names.map((name) => step({ id: name, planned: name, label: name, action: name, call: call(name) }));
+
+describe('a plan that is being changed', () => {
+  const asked: Asked[] = [];
+  const told = (plans: readonly PlanView[], proposals: readonly ProposalView[] = []) =>
+    act(() => useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada' })], plans: [...plans], proposals: [...proposals] })));
+  const names = () => within(screen.getByRole('grid')).getAllByRole('row').map((row) => row.textContent?.match(/One|Two|Three|Four/)?.[0]);
+  const puts = () => asked.filter(({ method }) => method !== 'GET').map(({ body }) => body);
+
+  beforeEach(() => {
+    asked.length = 0;
+    vi.stubGlobal('fetch', network({ 'robots/Ada/map': { json: mapInfo }, 'map': { json: mapInfo }, 'plans/Ada/steps': { json: {} }, 'plans/Ada/decision': { json: {} } }, asked));
+  });
+
+  it('stays as far as one got over a restart and on other pages, and drops nothing that waits again', async () => {
+    const [one, ...rest] = named('One', 'Two', 'Three', 'Four');
+    if (!one) throw new Error('there are four');
+    told([plan({ robot: 'Ada', revision: 4, state: 'paused', steps: [{ ...one, state: 'paused' }, ...rest] })]);
+    render(<PlanPanel />);
+    const user = userEvent.setup();
+    await user.click(screen.getByRole('button', { name: 'Change' }));
+    await user.click(screen.getByRole('button', { name: 'Remove “Three”' }));
+    act(() => useLive.getState().takeSnapshot(snapshot())); // the server was killed, and nobody has told it yet what there is
+    expect(screen.queryByRole('grid')).toBeNull();
+    cleanup();
+    told([plan({ robot: 'Ada', revision: 1009, state: 'paused', steps: [one, ...rest].map((each) => ({ ...each, planned: `new ${each.id}` })) })]);
+    render(<PlanPanel />);
+    expect(names()).toEqual(['Two', 'Four']);
+    screen.getByRole('button', { name: /^1\. One/ });
+    await user.click(screen.getByRole('button', { name: 'Save' }));
+    expect(puts()).toEqual([{ steps: ['One', 'Two', 'Four'].map(call), revision: 1009 }]);
+    expect(screen.queryByRole('grid')).toBeNull();
+    await user.click(screen.getByRole('button', { name: 'Change' }));
+    expect(names()).toEqual(['One', 'Two', 'Three', 'Four']);
+  });
+
+  it('is agreed to as what it was when one began, not as what it has become meanwhile', async () => {
+    const waits = (digest: string, ...steps: string[]): ProposalView => ({
+      id: 'p', robot: 'Ada', message: '', changes: [], steps: named(...steps), digest, by: null, why: '',
+    });
+    const idle = plan({ robot: 'Ada', state: 'awaiting_approval', steps: [] });
+    told([idle], [waits('first', 'One', 'Two')]);
+    render(<PlanPanel />);
+    const user = userEvent.setup();
+    await user.click(screen.getByRole('button', { name: 'Change' }));
+    told([idle], [waits('second', 'Three')]);
+    expect(names()).toEqual(['One', 'Two']);
+    await user.click(screen.getByRole('button', { name: 'Begin the changed plan' }));
+    expect(puts()).toMatchObject([{ id: 'p', digest: 'first', decision: 'edit', steps: ['One', 'Two'].map(call) }]);
+  });
+});
