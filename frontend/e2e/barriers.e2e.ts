@@ -12,6 +12,7 @@ const faces = [
   ['light', 'en', 'all'],
   ['dark', 'en', 'colours'],
   ['contrast', 'en', 'colours'],
+  ['forced', 'en', 'colours'],
   ['light', 'et', 'all else'],
 ] as const;
 /** Looks at a page of each size and face, all sizes at once: each is drawn by a process of its own. */
@@ -39,10 +40,12 @@ const wordsIn = (language: string): Words => (file, key) => {
   return found.replace('{{robot}}', 'David').replace('{{name}}', 'David');
 };
 
-/** A page in a look and a language. */
+/** A page in a look and a language; `forced`: in the colours of the device, which chooses dark ones. */
 async function dressed(stage: Stage, size: keyof typeof sizes, theme: string, language: string): Promise<Page> {
-  const prefs = JSON.stringify({ state: { theme, language, debug: true, welcomed: true }, version: 1 });
+  const isForced = theme === 'forced';
+  const prefs = JSON.stringify({ state: { theme: isForced ? 'dark' : theme, language, debug: true, welcomed: true }, version: 1 });
   const page = await stage.open(sizes[size], '', false, prefs);
+  if (isForced) await page.emulateMedia({ forcedColors: 'active', colorScheme: 'dark' });
   await page.getByRole('heading', { level: 2 }).first().waitFor();
   return page;
 }

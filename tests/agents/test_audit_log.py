@@ -139,6 +139,17 @@ def test_what_programs_call_a_command_or_a_policy_stands_in_the_log_in_words(
     assert told(AuditEvent(effect=effect, by=KIM, robot="Ada", detail=detail)) == shown
 
 
+@pytest.mark.parametrize(
+    ("by", "shown"),
+    [
+        (Principal(kind="robot", name="Ada/Inspect"), "Ada wants this remembered: cup location."),
+        (Principal(kind="person", name="operator"), "Somebody wants this remembered: cup location."),
+    ],
+)
+def test_what_memories_call_people_and_things_stands_in_the_log_in_words(by: Principal, shown: str) -> None:
+    assert told(AuditEvent(effect="remember", by=by, detail={"name": "cup_location"})) == shown
+
+
 async def test_a_wish_stands_in_the_log_in_the_words_of_the_robots_own_plans() -> None:
     known = ActionInfo(name=GO.name, inputs={"target": "string"}, phrases=("go to {target}",))
     async with rig() as r:

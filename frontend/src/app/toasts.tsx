@@ -35,7 +35,7 @@ function Note({ toast }: { toast: Toast }) {
     return () => clearTimeout(timer);
   }, [id, tone, action, dismiss]);
   return (
-    <div className={css.toast} data-tone={tone} role={tone === 'error' ? 'alert' : undefined}>
+    <div className={css.toast} data-comes data-tone={tone} role={tone === 'error' ? 'alert' : undefined}>
       <p>{message}</p>
       {action && (
         <Button

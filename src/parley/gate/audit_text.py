@@ -7,6 +7,7 @@ from datetime import datetime, tzinfo
 from typing import Any, Final
 
 from parley.gate.wording import rule_text
+from parley.memory.because import OPERATOR
 from parley.messages.audit import AuditEvent
 from parley.messages.plain import one_line
 from parley.messages.principal import Principal
@@ -33,11 +34,12 @@ def who_of(by: Principal | None) -> Sentence:
     if by is None or (by.kind == "program" and not by.key):
         return sentence("A program that nobody vouches for")
     if by.kind == "person":
-        named = sentence("{name}", name=by.name) if by.name else sentence("Somebody")
+        known = by.name not in ("", OPERATOR)
+        named = sentence("{name}", name=by.name) if known else sentence("Somebody")
         device = sentence(by.device) if by.device in _DEVICES else by.device
         return sentence("{who} ({device})", who=named, device=device) if by.device else named
     if by.kind == "robot":
-        return sentence("{name}", name=by.name)
+        return sentence("{name}", name=by.name.partition("/")[0])  # behind it stands the action
     if by.kind == "engine":
         return _engine(by.name)
     if by.kind == "rule":
@@ -65,7 +67,7 @@ def what_of(detail: dict[str, Any]) -> Sentence:
     for key in ("name", "policy", "command", "graph"):
         if isinstance(told := detail.get(key), str):
             ours = _OURS.get(told, "") if key in ("policy", "command") else ""
-            return sentence(ours) if ours else sentence("{name}", name=told)
+            return sentence(ours) if ours else sentence("{name}", name=told.replace("_", " "))
     return sentence("{name}", name=_NOTHING)
 
 

@@ -76,7 +76,7 @@ function Question({ entry, isOneOfMany, onChoose, children }: QuestionProps) {
   const name = nameList(entry.targets, i18n.language);
   const isRead = useInSight(entry.id) && !isOneOfMany;
   return (
-    <section className={css.ask} aria-label={t('questionHere', { name })}>
+    <section className={css.ask} data-comes aria-label={t('questionHere', { name })}>
       <p className={isRead ? 'hidden' : css.wishes} ref={isRead ? null : byKeys}>
         <strong>{t('answering', { name })}</strong> {entry.message}
       </p>
@@ -100,7 +100,7 @@ function Proposal({ proposal, chosen, children }: { proposal: ProposalView; chos
   const lines = linesOf(proposal.steps);
   const wishes = [...proposal.changes, ...lines.map(({ step }) => sentence(step.label))];
   return (
-    <section className={css.ask} aria-label={t('chat:asksHere', { robot: proposal.robot })}>
+    <section className={css.ask} data-comes aria-label={t('chat:asksHere', { robot: proposal.robot })}>
       <p className={css.title}>
         <Link href="/plan">{t('proposalTitle', { robot: proposal.robot })}</Link>
       </p>

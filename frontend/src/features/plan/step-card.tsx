@@ -45,7 +45,7 @@ export function StepCard({ line, number, changed, isHeld = false, onRemove = nul
   const label = sentence(step.label) || inWords(step.action);
   const state = useShownState(step, isHeld);
   return (
-    <li className={css.card} data-state={step.state} data-changed={changed || undefined}>
+    <li className={css.card} data-comes data-state={step.state} data-changed={changed || undefined}>
       <div className={css.line}>
         <button type="button" className={css.head} aria-expanded={open} onClick={() => setOpen(!open)}>
           <span className={css.mark} aria-hidden="true">
