@@ -52,8 +52,8 @@ function Tab({ name, chosen, awaitsAnswer, leads, onOnly, onToggle }: TabProps) 
       ) : (
         <Dot mood={mood} />
       )}
-      <span>{name}</span> <span className="hidden">{t(`robots:state.${mood}`)}</span>
-      {awaitsAnswer && <span className="hidden">{t('awaitsAnswer', { name })}</span>}
+      <span>{name}</span>{' '}
+      <span className="hidden">{awaitsAnswer ? t('awaitsAnswer', { name }) : t(`robots:state.${mood}`)}</span>
     </button>
   );
 }

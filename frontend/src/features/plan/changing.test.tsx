@@ -3,9 +3,11 @@ import userEvent from '@testing-library/user-event';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 
 import { network, type Asked } from '@/gallery/network';
-import { mapInfo, plan, robot, snapshot, step } from '@/live/samples';
+import { ability, mapInfo, plan, robot, snapshot, step } from '@/live/samples';
 import { useLive } from '@/live/store';
 import type { PlanView, ProposalView } from '@/live/types';
+
+import * as words from '@/ui/words';
 
 import { PlanPanel } from './plan-panel';
 
@@ -44,6 +46,23 @@ describe('a plan that is being changed', () => {
     expect(screen.queryByRole('grid')).toBeNull();
     await user.click(screen.getByRole('button', { name: 'Change' }));
     expect(names()).toEqual(['One', 'Two', 'Three', 'Four']);
+  });
+
+  it('is not drawn anew whenever the robot drives on: a long one could not be changed for that', async () => {
+    const [one, ...rest] = named('One', 'Two', 'Three');
+    if (!one) throw new Error('there are three');
+    const drives = (progress: number, unixMs = 0) => {
+      const robots = [robot({ name: 'Ada', last_seen_unix_ms: unixMs, catalogue: [ability({ name: 'Go' })] })];
+      const plans = [plan({ robot: 'Ada', state: 'running', steps: [{ ...one, state: 'running', progress }, ...rest] })];
+      act(() => useLive.getState().takeSnapshot(snapshot({ robots, plans })));
+    };
+    drives(0);
+    render(<PlanPanel />);
+    await userEvent.setup().click(screen.getByRole('button', { name: 'Change' }));
+    const drawn = vi.spyOn(words, 'quoted'); // each row says with it what its buttons are about
+    drives(0.5, 1);
+    screen.getByRole('progressbar');
+    expect(drawn).not.toHaveBeenCalled();
   });
 
   it('is agreed to as what it was when one began, not as what it has become meanwhile', async () => {

@@ -41,17 +41,17 @@ export function sinceThen(then: readonly StepView[], now: readonly StepView[]) {
   const again = pendingSteps(now).filter((one) => (known.get(one)?.state ?? 'queued') !== 'queued');
   const still = pendingSteps(now).filter((one) => !again.includes(one));
   return {
-    begun: new Set(begun.map((step) => step.id)),
+    begun: begun.map((step) => step.id),
     again,
     isSame: left.length === still.length && still.every((step, at) => known.get(step) === left[at]),
   };
 }
 
-/** Without those that have begun. */
-export const without = (steps: readonly DraftStep[], begun: ReadonlySet<string>): readonly DraftStep[] =>
-  steps
-    .filter((step) => !begun.has(step.id))
-    .map((step) => ({ ...step, finding: step.finding.filter((one) => !begun.has(one.id)) }));
+/** Without those that have begun; the others stay what they are. */
+export const without = (steps: readonly DraftStep[], begun: readonly string[]): readonly DraftStep[] => {
+  const stays = (step: DraftStep) => !begun.includes(step.id);
+  return steps.filter(stays).map((step) => (step.finding.every(stays) ? step : { ...step, finding: step.finding.filter(stays) }));
+};
 
 export const toDrafts = (steps: readonly StepView[]): readonly DraftStep[] =>
   linesOf(steps).map(({ step, finding }) => ({ ...toDraft(step), finding: finding.map(toDraft) }));

@@ -1,3 +1,4 @@
+import { memo } from 'react';
 import { Button as AriaButton, Checkbox, GridListItem } from 'react-aria-components';
 import { useTranslation } from 'react-i18next';
 
@@ -19,13 +20,13 @@ interface Props {
   places: Places;
   isFirst: boolean;
   isLast: boolean;
-  onMove: (by: -1 | 1) => void;
-  onRemove: () => void;
-  onChange: (name: string, value: string | number | boolean) => void;
+  onMove: (step: DraftStep, by: -1 | 1) => void;
+  onRemove: (step: DraftStep) => void;
+  onChange: (step: DraftStep, name: string, value: string | number | boolean) => void;
 }
 
 /** One step that can be moved, changed and removed. */
-export function EditorRow({ step, catalogue, places, isFirst, isLast, onMove, onRemove, onChange }: Props) {
+export const EditorRow = memo(function EditorRow({ step, catalogue, places, isFirst, isLast, onMove, onRemove, onChange }: Props) {
   const { t } = useTranslation('plan');
   const inputs = inputsOf(step);
   const actions = [step, ...step.finding].map((one) => one.action);
@@ -38,20 +39,20 @@ export function EditorRow({ step, catalogue, places, isFirst, isLast, onMove, on
           <Icon name="grip" />
         </AriaButton>
         <span className={css.label}>{sentence(step.label)}</span>
-        <Button tone="quiet" icon="up" iconOnly isDisabled={isFirst} aria-label={t('moveUp', { step: quoted(step.label) })} onPress={() => onMove(-1)} />
-        <Button tone="quiet" icon="down" iconOnly isDisabled={isLast} aria-label={t('moveDown', { step: quoted(step.label) })} onPress={() => onMove(1)} />
-        <Button tone="quiet" icon="trash" iconOnly aria-label={t('removeStep', { step: quoted(step.label) })} onPress={onRemove} />
+        <Button tone="quiet" icon="up" iconOnly isDisabled={isFirst} aria-label={t('moveUp', { step: quoted(step.label) })} onPress={() => onMove(step, -1)} />
+        <Button tone="quiet" icon="down" iconOnly isDisabled={isLast} aria-label={t('moveDown', { step: quoted(step.label) })} onPress={() => onMove(step, 1)} />
+        <Button tone="quiet" icon="trash" iconOnly aria-label={t('removeStep', { step: quoted(step.label) })} onPress={() => onRemove(step)} />
       </div>
       {inputs.length > 0 && (
         <div className={css.inputs}>
           {inputs.filter((input) => about(input.name)?.kind !== 'id').map((input) => (
-            <Input key={input.name} input={input} about={about(input.name)} places={places} onChange={(value) => onChange(input.name, value)} />
+            <Input key={input.name} input={input} about={about(input.name)} places={places} onChange={(value) => onChange(step, input.name, value)} />
           ))}
         </div>
       )}
     </GridListItem>
   );
-}
+});
 
 interface InputProps {
   input: ParameterView;

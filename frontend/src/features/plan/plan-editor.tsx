@@ -1,11 +1,12 @@
-import { useEffect, useMemo, useRef, useState } from 'react';
-import { GridList, useDragAndDrop, type Key } from 'react-aria-components';
+import { memo, useEffect, useMemo, useRef, useState } from 'react';
+import { GridList, useDragAndDrop } from 'react-aria-components';
 import { useTranslation } from 'react-i18next';
 
 import { useWorld } from '@/live/store';
 import type { ActionCall, AbilityView } from '@/live/types';
 import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
+import { useSame, useStable } from '@/ui/stable';
 import { useMap } from '@/ui/use-map';
 import { quoted } from '@/ui/words';
 
@@ -23,7 +24,7 @@ interface Props {
   /** How many stand before them. */
   before?: number;
   /** By id those that have begun since: they can be changed no more. */
-  begun?: ReadonlySet<string>;
+  begun?: readonly string[];
   saveLabel: string;
   /** Whether it is done with. */
   onSave: (calls: readonly ActionCall[]) => Promise<boolean>;
@@ -36,18 +37,18 @@ interface Removed {
   index: number;
 }
 
-const NONE: ReadonlySet<string> = new Set();
+const NONE: readonly string[] = [];
 const NO_ACTIONS: readonly AbilityView[] = [];
 
-/** Steps to be put in order, changed, removed and added. */
-export function PlanEditor({ id, robot, steps: initial, before = 0, begun = NONE, saveLabel, onSave, onCancel }: Props) {
+/** Steps to be put in order, changed, removed and added; drawn anew only where something of it is otherwise. */
+export const PlanEditor = memo(function PlanEditor({ id, robot, steps: initial, before = 0, begun = NONE, saveLabel, onSave, onCancel }: Props) {
   const { t } = useTranslation(['plan', 'common']);
   const [drafts, setSteps] = useLasting(`${id} steps`, initial);
   const steps = useMemo(() => without(drafts, begun), [drafts, begun]);
   const [added, setAdded] = useLasting(`${id} added`, 0);
   const [busy, setBusy] = useState(false);
   const [removed, setRemoved] = useLasting<Removed | null>(`${id} removed`, null);
-  const catalogue = useWorld((world) => world.robots[robot]?.catalogue ?? NO_ACTIONS);
+  const catalogue = useSame(useWorld((world) => world.robots[robot]?.catalogue ?? NO_ACTIONS));
 
   const choices = useMemo(() => addables(catalogue), [catalogue]);
   const places = usePlaces(robot);
@@ -61,10 +62,12 @@ export function PlanEditor({ id, robot, steps: initial, before = 0, begun = NONE
     },
   });
 
-  const remove = (step: DraftStep) => {
+  const move = useStable((step: DraftStep, by: -1 | 1) => setSteps(nudged(steps, step.id, by)));
+
+  const remove = useStable((step: DraftStep) => {
     setSteps(steps.filter((one) => one.id !== step.id));
-    setRemoved({ step, index: steps.indexOf(step) });
-  };
+    setRemoved({ step, index: steps.findIndex((one) => one.id === step.id) });
+  });
 
   const putBack = ({ step, index }: Removed) => {
     setSteps(steps.toSpliced(index, 0, step));
@@ -89,8 +92,9 @@ export function PlanEditor({ id, robot, steps: initial, before = 0, begun = NONE
     onCancel();
   };
 
-  const change = (changed: Key, name: string, value: string | number | boolean) =>
-    setSteps(steps.map((step) => (step.id === changed ? setInput(step, name, value) : step)));
+  const change = useStable((changed: DraftStep, name: string, value: string | number | boolean) =>
+    setSteps(steps.map((step) => (step.id === changed.id ? setInput(step, name, value) : step))),
+  );
 
   return (
     <div className={css.editor} ref={box} tabIndex={-1} role="group" aria-label={t('editTitle')}>
@@ -112,9 +116,9 @@ export function PlanEditor({ id, robot, steps: initial, before = 0, begun = NONE
             places={places}
             isFirst={index === 0}
             isLast={index === steps.length - 1}
-            onMove={(by) => setSteps(nudged(steps, step.id, by))}
-            onRemove={() => remove(step)}
-            onChange={(name, value) => change(step.id, name, value)}
+            onMove={move}
+            onRemove={remove}
+            onChange={change}
           />
         ))}
       </GridList>
@@ -143,7 +147,7 @@ export function PlanEditor({ id, robot, steps: initial, before = 0, begun = NONE
       </div>
     </div>
   );
-}
+});
 
 /** What a robot can be sent to. */
 function usePlaces(robot: string): Places {

@@ -3,13 +3,14 @@ import { useTranslation } from 'react-i18next';
 
 import { putSteps } from '@/live/api';
 import { useWorld } from '@/live/store';
-import type { PlanView, ProposalView, StepState } from '@/live/types';
+import type { ActionCall, PlanView, ProposalView, StepState } from '@/live/types';
 import { planKey } from '@/live/world';
 import { useSelection } from '@/state/selection';
 import { Beside } from '@/ui/button';
 import { Choice } from '@/ui/choice';
 import { Icon } from '@/ui/icon';
 import { Empty, Loading, Panel } from '@/ui/panel';
+import { useSame, useStable } from '@/ui/stable';
 
 import { pendingSteps, sinceThen, toDrafts } from './editing';
 import { MissionCard } from '@/ui/mission-card';
@@ -75,10 +76,20 @@ function PlanOf({ plan }: { plan: PlanView }) {
   const waiting = plan.kind === 'plan' ? proposalsOf(proposals, plan.robot) : [];
   const pending = pendingSteps(plan.steps);
   const { lines, current, over } = useMemo(() => divided(plan), [plan]);
-  const { begun, again, isSame } = useMemo(() => sinceThen(editing?.steps ?? [], plan.steps), [editing, plan]);
+  const since = useMemo(() => sinceThen(editing?.steps ?? [], plan.steps), [editing, plan]);
+  const { again, isSame } = since;
+  const begun = useSame(since.begun);
   const changed = editing ? pending.filter((step) => !again.includes(step)).map((step) => step.id) : [];
-  const close = () => setEditing(null);
+  const close = useStable(() => setEditing(null));
   const save = useSaving();
+  const first = useMemo(() => toDrafts(pendingSteps(editing?.steps ?? [])), [editing]);
+  const saveAll = useStable(async (calls: readonly ActionCall[]) => {
+    const all = [...again.map((step) => step.call ?? {}), ...calls];
+    const revision = editing && !isSame ? editing.revision : plan.revision;
+    const outcome = await save(plan.robot, () => putSteps(plan.robot, all, revision));
+    if (outcome !== 'refused') close();
+    return outcome !== 'refused';
+  });
   const remove = useRemoving(plan);
   const steps = useCurrentInView(current - over, editing !== null);
   return (
@@ -94,16 +105,11 @@ function PlanOf({ plan }: { plan: PlanView }) {
             key={editing.revision}
             id={`${partKey(plan)} ${editing.revision}`}
             robot={plan.robot}
-            steps={toDrafts(pendingSteps(editing.steps))}
+            steps={first}
             before={lines.filter(({ step }) => !changed.includes(step.id)).length}
             begun={begun}
             saveLabel={t('common:save')}
-            onSave={async (calls) => {
-              const all = [...again.map((step) => step.call ?? {}), ...calls];
-              const outcome = await save(plan.robot, () => putSteps(plan.robot, all, isSame ? plan.revision : editing.revision));
-              if (outcome !== 'refused') close();
-              return outcome !== 'refused';
-            }}
+            onSave={saveAll}
             onCancel={close}
           />
         )}
