@@ -43,6 +43,7 @@ interface Props {
 }
 
 const ROBOT_M = 0.18;
+const GOAL_M = 0.14;
 const ROBOT_LEAST_PX = 11;
 const DOT_PX = 5;
 
@@ -95,7 +96,7 @@ export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, tr
         ))}
       </g>
       <PlaceMarks things={map.objects} marked={marked?.kind === 'thing' ? marked.thing : null} view={view} size={size} />
-      <Labels things={map.objects} rooms={map.rooms} candidates={candidates} rovers={rovers} view={view} size={size} robotPx={robotPx} />
+      <Labels things={map.objects} rooms={map.rooms} candidates={candidates} rovers={rovers} goals={goalsOf(rovers, trials)} view={view} size={size} robotPx={robotPx} />
       {rovers.map((rover) => {
         const at = toScreen(view, size, rover.pose);
         const heading = (-(rover.pose.yaw ?? 0) * 180) / Math.PI;
@@ -119,13 +120,19 @@ export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, tr
 
 const pointsOf = (points: readonly (readonly [number, number])[]) => points.map(([x, y]) => `${x},${y}`).join(' ');
 
+/** Where the ways end that are drawn. */
+const goalsOf = (rovers: readonly Rover[], trials: readonly Trial[]): readonly Place[] => [
+  ...rovers.flatMap(({ view }) => (view?.goal && view.path.length > 0 ? [view.goal] : [])),
+  ...trials.flatMap((trial) => (trial.state === 'found' ? trial.goals.map(([x, y]) => ({ x, y })) : [])),
+];
+
 /** A way that nobody drives yet, and where the robot would stand on it. */
 function Tried({ points, goals }: Extract<Trial, { state: 'found' }>) {
   return (
     <g className={css.tried}>
       <polyline points={pointsOf(points)} />
       {goals.map(([x, y], index) => (
-        <circle key={index} cx={x} cy={y} r={0.14} />
+        <circle key={index} cx={x} cy={y} r={GOAL_M} />
       ))}
     </g>
   );
@@ -151,7 +158,7 @@ function Way({ rover, showScan }: { rover: Rover; showScan: boolean }) {
     <g className={css.way} data-chosen={rover.chosen}>
       {showScan && <path className={css.scan} d={view.scan.map(([x, y]) => `M${x} ${y}h0`).join('')} />}
       {points.length > 0 && <polyline points={[`${pose.x},${pose.y}`, ...points].join(' ')} />}
-      {view.goal && points.length > 0 && <circle className={css.goal} cx={view.goal.x} cy={view.goal.y} r={0.14} />}
+      {view.goal && points.length > 0 && <circle className={css.goal} cx={view.goal.x} cy={view.goal.y} r={GOAL_M} />}
     </g>
   );
 }
@@ -161,12 +168,14 @@ interface LabelsProps {
   candidates: Candidates;
   things: readonly MapThing[];
   rovers: readonly Rover[];
+  /** Ends of ways: nothing is written over them. */
+  goals: readonly Place[];
   view: Viewport;
   size: Size;
   robotPx: number;
 }
 
-function Labels({ things, rooms, candidates, rovers, view, size, robotPx }: LabelsProps) {
+function Labels({ things, rooms, candidates, rovers, goals, view, size, robotPx }: LabelsProps) {
   const robots = rovers.map((rover): Label => {
     const at = toScreen(view, size, rover.pose);
     return robotLabel(rover.name, rover.title, at, robotPx);
@@ -184,7 +193,8 @@ function Labels({ things, rooms, candidates, rovers, view, size, robotPx }: Labe
   const large = rooms.map((room) => roomLabel(room, things, view, size));
   const isFirst = ({ id }: Label) => id.startsWith('candidate');
   const labels = [...robots, ...named.filter(isFirst), ...large, ...named.filter((one) => !isFirst(one))];
-  const marks = rovers.map((rover) => ({ at: toScreen(view, size, rover.pose), radius: robotPx }));
+  const at = (place: Place, radius: number) => ({ at: toScreen(view, size, place), radius });
+  const marks = [...rovers.map(({ pose }) => at(pose, robotPx)), ...goals.map((goal) => at(goal, GOAL_M * view.scale))];
   return (
     <g className={css.labels}>
       {[...roomForLabels(labels, size, marks, boxes)].map(([id, { x, y, text }]) => (

@@ -55,6 +55,19 @@ describe('the map', () => {
     screen.getByRole('button', { name: 'Go to the front door' });
   });
 
+  it('writes no name over the end of a way', async () => {
+    render(<MapPanel />);
+    const name = () => document.querySelector('text[data-of="room"]')?.getAttribute('y');
+    await vi.waitFor(() => expect(name()).toBeDefined());
+    const goesTo = (path: [number, number][]) =>
+      act(() => useLive.getState().takeView({ ...mapView, path, goal: { x: 3, y: 2.5, yaw: 0 } }));
+    goesTo([]);
+    const before = name();
+    goesTo([[3, 2.5]]);
+    expect(name()).toBeDefined();
+    expect(name()).not.toBe(before);
+  });
+
   it('draws the way that waits for a yes', async () => {
     const answers: Answers = { map: { json: mapInfo }, 'rules/try': { json: verdict({ length_m: 2, way: [[1, 2], [3, 1]], goals: [[2, 2], [3, 1]] }) } };
     vi.stubGlobal('fetch', network(answers));

@@ -224,7 +224,7 @@ function Steps({ title, from, lines, plan, isFolded = false, isChanged = () => f
 function useCurrentInView(current: number, busyElsewhere: boolean) {
   const list = useRef<HTMLOListElement>(null);
   useEffect(() => {
-    if (current > 0 && !busyElsewhere) list.current?.children[current]?.scrollIntoView({ block: 'nearest' });
+    if (current >= 0 && !busyElsewhere) list.current?.children[current]?.scrollIntoView({ block: 'nearest' });
   }, [current, busyElsewhere]);
   return list;
 }
