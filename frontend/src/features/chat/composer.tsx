@@ -1,6 +1,7 @@
 import { useEffect } from 'react';
 import { FileTrigger } from 'react-aria-components';
 import { useTranslation } from 'react-i18next';
+import { Link } from 'wouter';
 
 import { useLive, useWorld } from '@/live/store';
 import { draftKey, emptyDraft, useDrafts } from '@/state/drafts';
@@ -14,6 +15,7 @@ import css from './composer.module.css';
 import { useOutbox } from '@/state/outbox';
 import { readPhoto } from '@/ui/photo';
 import type { Answering } from '@/live/questions';
+import { useForeign } from '@/state/foreign';
 import { useUnattended } from '@/state/unattended';
 
 interface Props {
@@ -75,6 +77,7 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
       }}
     >
       <AwayNote chosen={chosen} />
+      <LanguageNote />
       <AnswerNote answering={answering} />
       {draft.photo && (
         <p className={css.photo}>
@@ -113,6 +116,17 @@ function AwayNote({ chosen }: { chosen: readonly string[] }) {
   const away = chosen.filter((name) => robots[name] && robots[name].connection !== 'here');
   if (away.length === 0) return null;
   return <p className={css.away}>{t('notHere', { name: nameList(away, i18n.language), count: away.length })}</p>;
+}
+
+/** That orders are understood in another language than the page's, before somebody finds out. */
+function LanguageNote() {
+  const { t } = useTranslation('chat');
+  if (!useForeign()) return null;
+  return (
+    <p className={css.language}>
+      {t('speaksEnglish')} <Link href="/settings">{t('speaksMore')}</Link>
+    </p>
+  );
 }
 
 /** Whom a message answers and for whom it is something new. */

@@ -24,7 +24,6 @@ export function Welcome({ chosen, onSay }: Props) {
   const labels = useWorld((world) => world.info?.shown_examples ?? NO_EXAMPLES);
   const tour = useWorld((world) => world.info?.tour ?? NO_EXAMPLES);
   const begin = useTour((state) => state.begin);
-  const foreign = useWorld((world) => world.info?.offline_language ?? false) && !i18n.language.startsWith('en');
   const known = useLive((live) => live.world.run !== '');
   const maySpeak = useMay('speak');
   if (!known) return <Loading />;
@@ -39,7 +38,6 @@ export function Welcome({ chosen, onSay }: Props) {
   return (
     <Empty title={t('emptyTitle', { name: nameList(chosen, i18n.language) })}>
       <p>{t('emptyText')}</p>
-      {foreign && <p>{t('speaksEnglish')}</p>}
       <ul className={css.examples}>
         {examples.slice(0, SHOWN).map((example, index) => (
           <li key={example}>

@@ -2,6 +2,7 @@ import { useTranslation } from 'react-i18next';
 
 import { languages, nameOfLanguage } from '@/i18n';
 import { useWorld } from '@/live/store';
+import { useForeign } from '@/state/foreign';
 import { usePrefs, type PlanColours, type Theme } from '@/state/prefs';
 import { Choice } from '@/ui/choice';
 import { Panel } from '@/ui/panel';
@@ -49,6 +50,7 @@ function About() {
   const { t } = useTranslation('menu');
   const info = useWorld((world) => world.info);
   const addresses = info?.addresses ?? NO_ADDRESSES;
+  const foreign = useForeign();
   if (!info) return null;
   return (
     <>
@@ -63,6 +65,7 @@ function About() {
         <dd>{info.version}</dd>
       </dl>
       {info.offline_language && <p>{t('offlineLanguage')}</p>}
+      {foreign && <p>{t('foreignHelp')}</p>}
       <Models />
       <section className={css.devices}>
         <h3>{t('otherDevices')}</h3>
