@@ -152,6 +152,12 @@ describe.skipIf(!hasBrowser)('a page whose server goes away', () => {
     const page = await stage.open(sizes.phone);
     await page.getByText(`line ${total - 1}: stop`, { exact: true }).waitFor();
     expect(await page.getByText('line 0: stop', { exact: true }).count()).toBe(0);
+    const fromEnd = () => page.getByRole('region', { name: 'Conversation' }).evaluate((box) => box.scrollHeight - box.scrollTop - box.clientHeight);
+    for (const turned of [{ width: 844, height: 390 }, sizes.phone]) {
+      await page.setViewportSize(turned);
+      await expect.poll(fromEnd, { timeout: PATIENCE_MS }).toBeLessThan(2);
+      expect(await page.getByRole('button', { name: 'Newest messages' }).count()).toBe(0);
+    }
     const older = page.getByRole('button', { name: 'Show earlier messages' });
     const beginning = page.getByText('This is where the conversation begins.');
     while (!(await beginning.isVisible())) {

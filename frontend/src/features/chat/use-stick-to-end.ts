@@ -21,7 +21,13 @@ export function useStickToEnd(entries: readonly ChatEntry[], waiting: number, sh
   useEffect(() => {
     const box = scroller.current;
     if (!box) return undefined;
+    const size = () => `${box.clientWidth} ${box.clientHeight}`;
+    let stoodIn = size();
     const look = () => {
+      if (size() !== stoodIn && stick.current) {
+        onResize(); // turned, or less of it to be seen: nobody has gone up
+        return;
+      }
       const isNear = box.scrollHeight - box.scrollTop - box.clientHeight < NEAR_PX;
       // Only who goes up leaves the end: a picture that has just come moves the end away from the reader.
       const end = isNear || (stick.current && box.scrollTop >= stoodAt.current);
@@ -31,6 +37,7 @@ export function useStickToEnd(entries: readonly ChatEntry[], waiting: number, sh
       if (end) setSeen(Number.MAX_SAFE_INTEGER);
     };
     const onResize = () => {
+      stoodIn = size();
       if (!stick.current) return;
       box.scrollTop = box.scrollHeight;
       stoodAt.current = box.scrollTop;
