@@ -72,6 +72,25 @@ _NEVER: Final = re.compile(
     r"|(?P<whom>[\w ]+?) (?:is|are) (?:not|never) allowed to"
     r"|(?P<kes>[\w ]+?) ei tohi(?: kunagi)?)\s+(?P<rest>.+)$"
 )
+_APART: Final = re.compile(
+    r"^(?:(?:keep|stay)(?: at least| a minimum of)?|(?:never|you must(?: not|n't)|nobody may) "
+    r"(?:go|come|drive|get|move) (?:closer|nearer) than)"
+    r" (?P<number>half a|an?|one|two|three|four|five|\d+(?:[.,]\d+)?) ?"
+    r"(?P<unit>cm|met(?:re|er)s?|m|feet|foot)(?: or more)?"
+    r"(?: away| clear| off| distance)? (?:from|of|to) (?P<place>.+)$"
+)
+_UNITS_M: Final = {"c": 0.01, "f": 0.3048}
+_NUMBERS: Final = {
+    "half a": 0.5,
+    "a": 1.0,
+    "an": 1.0,
+    "one": 1.0,
+    "two": 2.0,
+    "three": 3.0,
+    "four": 4.0,
+    "five": 5.0,
+}
+"""How far away one has to stay: "stay at least 3 metres away from the gate"."""
 _CLOSED: Final = re.compile(
     r"^(?P<place>.+?) (?:is|are) (?:off[- ]limits|out of bounds|closed(?: off)?|a no[- ]go (?:area|zone)|"
     r"cordoned off|sealed off)(?: (?:to|for) (?:you|robots|everybody|everyone|all))?$"
@@ -274,6 +293,10 @@ def _forbidden(said: str, world: _World) -> dict[str, Any] | NotUnderstood | Non
         known |= {area.name.casefold() for area in world.areas}
         shut = _area(name, world) if name in known else None
         return {"kind": "keep_out", "robots": ()} | shut if isinstance(shut, dict) else None
+    if apart := _APART.match(said):
+        number = _NUMBERS.get(apart["number"]) or float(apart["number"].replace(",", "."))
+        around = _area(apart["place"], world, number * _UNITS_M.get(apart["unit"][0], 1.0))
+        return around if isinstance(around, NotUnderstood) else {"kind": "keep_out", "robots": ()} | around
     found = _NEVER.match(said)
     if found is None:
         return None
