@@ -181,6 +181,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
     },
     chat.Press: PRESS,
     chat.PressTaken: {"run": "r", "id": "p.7", "outcome": "refused", "why": "Step 2 is impossible."},
+    chat.Aside: {"actor": "A", "reply_to": "1", "id": "2", "message": "it is blue"},
     chat.ReplyDraft: {"reply_to": "1", "targets": ["A"], "message": "I will"},
     chat.ChatFeedback: {
         "message": "Which one?",
@@ -438,6 +439,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "decision": "edit",
         "steps": [MOVE],
         "revision": 3,
+        "undoes": ["s1"],
         "policy": "ask_first",
         "digest": "5b1e",
         "by": KIM,
