@@ -178,6 +178,14 @@ def test_robots_are_named_by_whole_words(clock: ManualClock, message: str, named
     assert presence.named_in(message) == named
 
 
+def test_a_stop_counts_before_the_next_heartbeat_says_so(clock: ManualClock) -> None:
+    presence = Presence(clock)
+    presence.on_status(ActorStatus(actor="A", state="running"))
+    presence.on_stop_report(StopReport(actor="A", state="received"))
+    status = presence.get("A")
+    assert status is not None and status.state == "stopped"
+
+
 @pytest.mark.parametrize(("graphs", "then"), [({"g": "PAUSED"}, "paused"), ({}, "idle")])
 def test_released_robot_is_no_longer_taken_for_a_stopped_one(
     clock: ManualClock, graphs: dict[str, str], then: str

@@ -80,9 +80,13 @@ class Presence:
             self._on_change(status.actor, True)
 
     def on_stop_report(self, report: StopReport) -> None:
-        """A stop was released: nobody is told to release it again before the next heartbeat says so."""
+        """A stop is in force, or was released: that counts before the next heartbeat says so."""
+        seen = self._seen.get(report.actor)
         if report.state == "reset":
             self._released(report.actor)
+        elif seen is not None:
+            status = seen.status.model_copy(update={"state": "stopped"})
+            self._seen[report.actor] = _Seen(status, seen.at_s)
 
     def on_reset(self, command: StopCommand) -> None:
         """A person releases stops. Whether it holds the engine says, to who goes on too early as well."""
