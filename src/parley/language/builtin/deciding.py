@@ -147,11 +147,11 @@ def _looking(
         return sight
     names = named(tokens, situation.objects, lexicon)
     spaces = [] if names else named(tokens, situation.rooms, lexicon)
-    it, _ = policy.spoken_of(situation, (), lexicon)
     vague = {token.low for token in tokens} & (
         lexicon.classes["clock"] | {"true", "possible", "ok", "you", "me"}
     )
-    if not (names or spaces or vague) and isinstance(it, MapObject):  # "is it open?", "is there a cup on it?"
+    it = None if names or spaces or vague else policy.spoken_of(situation, (), lexicon)[0]
+    if isinstance(it, MapObject):  # "is it open?", "is there a cup on it?"
         tokens = tokenize(_IT.sub(f"the {it.description}", situation.message, count=1))
         names = named(tokens, situation.objects, lexicon)
     called = {word for robot in situation.robots for word in robot.lower().split()}
