@@ -41,6 +41,14 @@ def test_a_yes_goes_to_what_was_proposed_last() -> None:
     assert (last.id, last.decision) == ("p1", "reject")
 
 
+def test_go_and_see_is_a_yes_to_what_was_only_offered() -> None:
+    waiting = offered("p1")
+    assert waiting.decided("Ada", said("go and see"), ["Ada"]) is None
+    waiting.on_proposal(PlanProposal(id="p2", target="Ada", why="I cannot tell that from here"))
+    decision = waiting.decided("Ada", said("go and see"), ["Ada"])
+    assert decision is not None and decision.decision == "approve"
+
+
 def test_a_yes_means_nothing_where_nothing_waits() -> None:
     waiting = offered("p1")
     assert waiting.decided("Bob", said("yes"), ["Ada", "Bob"]) is None

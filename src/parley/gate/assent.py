@@ -48,6 +48,12 @@ _NO_PARTS: Final = frozenset({
     "not those", "wrong one", "the wrong one", "that is the wrong one", "not what i meant",
     "that is not what i meant", "you may not", "you must not",
 })  # fmt: skip
+_TO_SEE: Final = frozenset({
+    "go and see", "go see", "go and look", "go look", "have a look", "take a look", "go and have a look",
+    "go and take a look", "go and check", "go check", "look", "check", "check it", "see for yourself",
+    "go there and look", "go there and see", "go over there", "mine vaata", "vaata järele",
+})  # fmt: skip
+"""A yes where it was offered to go and look."""
 _FILLERS: Final = frozenset({
     "please", "thanks", "thank you", "then", "now", "well", "oh", "um", "uh", "so", "sorry", "actually",
     "hm", "hmm", "dear", "mate", "buddy", "just", "man", "palun", "aitäh",
@@ -70,12 +76,13 @@ _NEGATION: Final = re.compile(
 )
 
 
-def assent_of(text: str, names: Sequence[str] = ()) -> bool | None:
+def assent_of(text: str, names: Sequence[str] = (), *, to_see: bool = False) -> bool | None:
     """Whether a whole utterance is a yes (True) or a no (False); None for everything else.
 
     Args:
         text: What the person said.
         names: Names of robots, which may be called before or after.
+        to_see: Whether it was offered to go and look: "go and see" is a yes then.
     """
     if "?" in text:
         return None
@@ -91,7 +98,7 @@ def assent_of(text: str, names: Sequence[str] = ()) -> bool | None:
     if said in _NO or bare in _NO:
         return False
     spoken = said.split()
-    found = _put_together(spoken)
+    found = _put_together(spoken, _TO_SEE if to_see else frozenset())
     if found is None and spoken[:1] and spoken[0] in _RESIGNED and "no" not in spoken:  # "ok, leave it"
         return False if _put_together(spoken[1:]) is False else None
     return found
@@ -100,19 +107,20 @@ def assent_of(text: str, names: Sequence[str] = ()) -> bool | None:
 _RESIGNED: Final = frozenset({"ok", "okay", "fine", "well", "right", "alright", "hm", "oh", "ah"})
 
 
-def _put_together(words: Sequence[str]) -> bool | None:
+def _put_together(words: Sequence[str], more: frozenset[str] = frozenset()) -> bool | None:
     """A yes or a no of several such phrases ("yes, like that", "nah, leave it"); one word more is neither."""
     found: set[bool] = set()
     at, negated = 0, False
     while at < len(words) <= _LONGEST:
         for end in range(len(words), at, -1):
             phrase = " ".join(words[at:end])
-            if phrase in _FILLERS or phrase in _YES | _YES_PARTS or phrase in _NO | _NO_PARTS:
+            agrees = phrase in _YES | _YES_PARTS | more
+            if phrase in _FILLERS or agrees or phrase in _NO | _NO_PARTS:
                 if negated and words[at] in _GIVING_UP:
                     return None  # "don't stop", "never cancel it": no refusal at all
                 negated = phrase.endswith(("do not", "never", "must not", "rather not"))
                 if phrase not in _FILLERS:
-                    found.add(phrase in _YES | _YES_PARTS)
+                    found.add(agrees)
                 at = end
                 break
         else:

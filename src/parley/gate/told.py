@@ -67,7 +67,7 @@ _NEVER: Final = re.compile(
     r"|(?:i(?:'d| would) (?:rather|prefer it if)|i don't want|it would be better if)"
     r" you (?:to (?:not|never)|not to|didn't|did not|don't|never)|i (?:don't|do not) want you to"
     r"|ära kunagi|ärge kunagi|sa ei tohi(?: kunagi)?)"
-    r"|(?P<keep>(?:keep|stay) (?:out of|away from|clear of|off)|hoia eemale|hoidke eemale)"
+    r"|(?P<keep>(?:keep|stay) (?:out of|away from|clear of|off)|avoid|hoia eemale|hoidke eemale)"
     r"|(?P<who>[\w ]+?) (?:must|may|shall|should) (?:not|never)(?: ever)?"
     r"|(?P<whom>[\w ]+?) (?:is|are) (?:not|never) allowed to"
     r"|(?P<kes>[\w ]+?) ei tohi(?: kunagi)?)\s+(?P<rest>.+)$"

@@ -21,16 +21,9 @@ from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject, ObjectMap
 
 __all__ = [
-    "DraftHandler",
-    "ErrorSituation",
-    "Grounding",
-    "InspectionReport",
-    "Language",
-    "Picture",
-    "ReplyReading",
-    "Situation",
-    "Turn",
-]
+    "DraftHandler", "ErrorSituation", "Grounding", "InspectionReport", "Language", "Picture",
+    "ReplyReading", "Situation", "Turn",
+]  # fmt: skip
 
 Status = Literal["idle", "running", "paused"]
 

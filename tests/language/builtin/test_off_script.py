@@ -14,6 +14,7 @@ from parley.language.dialogue.state import Deed, Dialogue, Order
 from parley.messages.chat import ActionCall
 from parley.messages.memory import MemoryEntry
 from parley.messages.status import PlanProposal
+from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 from tests.language.builtin.worlds import situation
 
@@ -252,3 +253,95 @@ def test_a_set_is_known_by_an_irregular_plural() -> None:
     shelves = tuple(MapObject(f"shelf_{n}", f"shelf {n}", float(n), 1.0) for n in (1, 2))
     made = ENGINE.decide(situation("check all shelves", objects=shelves, catalogue=SHIPPED))
     assert targets(made) == {"shelf 1", "shelf 2"}
+
+
+CRATES = tuple(
+    MapObject(name.replace(" ", "_"), name, x, 1.0)
+    for name, x in (("old crate", 2.0), ("new crate", 7.0), ("gate", 9.0))
+)
+
+
+def told(said: str, *before: str, **more: object) -> Decision:
+    history = tuple(Turn("operator", text) for text in before)
+    pose = Pose2D(1.0, 1.0, 0.0)
+    known = {"objects": CRATES, "catalogue": SHIPPED, "robot_pose": pose, "history": history}
+    return ENGINE.decide(situation(said, **(known | more)))
+
+
+@pytest.mark.parametrize(
+    ("said", "near"),
+    [
+        ("where's the nearest crate?", "The old crate is"),
+        ("which crate is closest to the gate?", "The new crate is"),
+        ("which crate is furthest?", "The new crate is"),
+        ("which is closer, the gate or the new crate?", "The new crate is"),
+        ("how far is the old crate from the gate?", "By my map they are about 7 metres apart."),
+        ("what's around here?", "By my map: the old crate"),
+    ],
+)
+def test_what_is_nearest_is_told_from_the_map(said: str, near: str) -> None:
+    made = told(said)
+    assert isinstance(made, Answer)
+    assert made.text.startswith(near)
+
+
+def test_what_was_asked_about_last_is_meant_by_it_and_asked_where_it_was_several_things() -> None:
+    made = told("go to it", "go to the gate", "where's the nearest crate?")
+    assert isinstance(made, Do)
+    assert made.deeds[0].arguments == {"target": "old crate"}
+    assert isinstance(told("go to it", "go to the gate", "are there any crates?"), Ask)
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["could you see if the gate is locked", "is the gate locked or not?", "anything at the gate right now?"],
+)
+def test_what_only_a_look_tells_is_looked_at_or_offered(said: str) -> None:
+    made = told(said)
+    deeds = made.offer if isinstance(made, Ask) else made.deeds if isinstance(made, Do) else ()
+    assert [deed.frame for deed in deeds if not deed.hidden] == ["GO", "LOOK"]
+
+
+def test_what_is_no_fact_of_a_place_is_offered_to_be_remembered_and_a_yes_says_so() -> None:
+    said = "We expect a visitor at the gate at ten"
+    asked = told(said)
+    assert isinstance(asked, Ask)
+    assert asked.choices == ("remember that we expect a visitor at the gate at ten",)
+    kept = told("yes", said)
+    assert isinstance(kept, Remember)
+    assert [fact.text for fact in kept.told] == ["we expect a visitor at the gate at ten"]
+    assert not isinstance(told("yes", said, "where is the old crate?"), Remember)
+
+
+def test_she_is_who_was_told_of_by_name_and_nobody_else() -> None:
+    kept = told("she is at the gate", "Anna would like a glass of water")
+    assert isinstance(kept, Remember)
+    assert [fact.text for fact in kept.told] == ["Anna is at the gate"]
+    lost = told("she is at the gate", "Check the old crate")
+    assert isinstance(lost, Ask) and not lost.choices
+
+
+def test_what_is_called_with_another_article_is_that_thing_and_no_other() -> None:
+    crates = (MapObject("1", "crate", 1.0, 1.0), MapObject("2", "crate with a lid", 5.0, 5.0))
+    for said in ("go to the crate with the lid", "go to the crate, the one with the lid"):
+        made = told(said, objects=crates)
+        assert isinstance(made, Do)
+        assert made.deeds[0].arguments == {"target": "crate with a lid"}
+
+
+def test_a_place_is_taken_as_a_way_and_never_picked_up() -> None:
+    bays = (MapObject("1", "charging dock", 1.0, 1.0), MapObject("2", "gate", 5.0, 5.0))
+    assert isinstance(told("pick up the dock", objects=bays), Ask)
+    assert isinstance(told("can you pick it up?", "go to the dock", objects=bays), Ask)
+    assert isinstance(told("take the dock", objects=bays), Do)
+
+
+@pytest.mark.parametrize("said", ["show me the first one", "photograph the second one"])
+def test_no_picture_is_taken_of_one_that_nobody_knows(said: str) -> None:
+    assert isinstance(told(said), Ask)
+
+
+def test_who_wants_to_know_has_it_looked_at_and_who_wonders_is_asked() -> None:
+    assert isinstance(told("I need to know if the gate is locked"), Do)
+    wondered = told("I wonder if the gate is locked")
+    assert isinstance(wondered, Ask) and wondered.offer

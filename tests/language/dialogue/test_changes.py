@@ -107,12 +107,29 @@ async def test_of_three_ways(message: str, drops: set[int], adds: list[str]) -> 
 
 @pytest.mark.parametrize(
     "message",
-    ["no, the gate is locked", "the lamp is better lit", "skip the seventh one", "not the crate, the lamp",
+    ["no, the gate is locked", "to the desk, no wait, the lamp",
+     "the lamp is better lit", "skip the seventh one", "not the crate, the lamp",
      "sorry, I meant the crate", "what about the gate?", "is the gate after the box?"],
 )  # fmt: skip
 async def test_in_doubt_the_plan_stays(message: str) -> None:
     answer = await ENGINE.interpret(given(message, "box", "gate"))
     assert (dropped(answer), answer.queue) == (set(), ())
+
+
+@pytest.mark.parametrize("waits", [False, True], ids=["runs", "waits"])
+@pytest.mark.parametrize(
+    "said", ["go to the desk, no, I mean the lamp", "go to the desk. Sorry, I meant the lamp"]
+)
+async def test_what_somebody_takes_back_while_speaking_is_no_word_about_the_plan(
+    said: str, waits: bool
+) -> None:
+    about = given(said, "box", "gate")
+    if waits:
+        plan = PlanProposal(id="7", target="Ada", steps=(*way("box"), *way("gate")), labels=("",) * 4)
+        about = replace(about, queue=(), dialogue=Dialogue("awaiting_approval", proposal=plan))
+    plainly = await ENGINE.interpret(replace(about, message="go to the lamp"))
+    assert goals(plainly)[-1] == "lamp"
+    assert await ENGINE.interpret(about) == plainly
 
 
 async def test_a_proposal_is_changed_as_a_whole() -> None:

@@ -153,8 +153,10 @@ class Offered:
     def decided(self, target: str, said: ChatInput, names: Sequence[str]) -> PlanDecision | None:
         """What a message decides about what was proposed last; None if it decides nothing."""
         newest = self.newest(target)
-        assent = assent_of(said.message, names) if newest is not None else None
-        if newest is None or assent is None:
+        if newest is None:
+            return None
+        assent = assent_of(said.message, names, to_see=bool(newest.why))
+        if assent is None:
             return None
         return PlanDecision(
             id=newest.id,

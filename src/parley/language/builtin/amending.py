@@ -11,7 +11,6 @@ from collections.abc import Sequence
 
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.spans import Parse, Span, Verb
-from parley.language.builtin.tokens import Token
 
 __all__ = ["amended"]
 
@@ -20,8 +19,8 @@ _NAMED = frozenset("TGLSRHN")
 _BINDING = frozenset({"if", "unless", "until", "when", "before", "after"})
 
 
-def amended(found: Parse, lexicon: Lexicon) -> tuple[Token, ...] | None:
-    """The words without what is taken back in them; None if nothing is, or not plainly."""
+def amended(found: Parse, lexicon: Lexicon) -> tuple[int, int] | None:
+    """Where what is taken back begins in the text and where it ends; None if nothing is, or not plainly."""
     low = [token.low for token in found.tokens]
     for at in range(2, len(low) - 1):
         behind = _behind(low, at, lexicon)
@@ -30,7 +29,7 @@ def amended(found: Parse, lexicon: Lexicon) -> tuple[Token, ...] | None:
             continue  # one word may be a part of what is said: "with no lid"
         start = _taken_back(found, low, at, behind, lexicon)
         if start is not None:
-            return (*found.tokens[:start], *found.tokens[behind:])
+            return found.tokens[start].start, found.tokens[behind].start
     return None
 
 

@@ -11,13 +11,14 @@ from parley.language.builtin.facts import known_place, places
 from parley.language.builtin.lexicon import Lexicon, stem
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.saying import as_said, with_article
+from parley.language.builtin.spatial import picked
 from parley.language.builtin.things import link, noun_phrase
 from parley.language.builtin.tokens import Token, tokenize
-from parley.language.dialogue.mentions import Named, named
-from parley.language.dialogue.places import lies, whereabouts
+from parley.language.dialogue.mentions import Named, named, named_alone
+from parley.language.dialogue.places import distance_m, lies, whereabouts
 from parley.world.object_map import MapObject
 
-__all__ = ["answer", "look_asked_for"]
+__all__ = ["answer", "look_asked_for", "most_asked"]
 
 
 _NO_ANSWER: Final = "I cannot answer that. I can tell where a thing is, if it is on my map or was told to me."
@@ -38,6 +39,8 @@ def answer(
     if thing is None:
         return _kept(situation, lexicon) or Answer(_NO_ANSWER)
     mention = link(thing.words, thing.head, situation.objects, lexicon)
+    if len(most := most_asked(tokenize(situation.message), situation, lexicon)) == 1:
+        return Answer(_lying(situation, most[0]))
     if mention.kind == "pronoun":
         return _spoken_of(situation, before)
     name, _ = noun_phrase(thing.words, thing.head, lexicon)
@@ -56,8 +59,34 @@ def answer(
     if mention.kind == "several":
         both = " and ".join(with_article(item.description) for item in mention.things)
         return Answer(f"On my map there is {both}.")
+    if {*thing.words} & _ANY:
+        return Answer(_NO_ANSWER)
     shown = with_article(as_said(mention.text, situation.message))
     return _kept(situation, lexicon) or Answer(f"I do not know anything about {shown}.")
+
+
+def most_asked(tokens: Sequence[Token], situation: Situation, lexicon: Lexicon) -> tuple[MapObject, ...]:
+    """What "which gate is nearest?", "where is the nearest crate to the gate?" ask for; empty for others."""
+    low = [token.low for token in tokens if token.is_word]
+    at = next((at for at, word in enumerate(low) if word in _MOST), None)
+    if at is None:
+        return ()
+    kind = [word for word in low[1:at] if word not in _IDLE] if low[0] in ("which", "what") else []
+    most, rest = _MOST[low[at]], low[at + 1 :]
+    words = [most, *rest] if not kind else [*kind, most, *rest] if rest else [most, *kind]
+    found = picked(words, situation.objects, lexicon, situation.robot_pose)
+    names = named_alone(tokens, situation.objects, lexicon)
+    if found is None and len(names) > 1 and (pose := situation.robot_pose) is not None:
+        pick = min if most in ("nearest", "closest") else max
+        return (pick(names, key=lambda thing: distance_m(thing, pose)),)
+    return found.things if found is not None else ()
+
+
+_MOST: Final = {
+    "nearest": "nearest", "closest": "closest", "nearer": "nearest", "closer": "closest",
+    "farthest": "farthest", "furthest": "furthest", "farther": "farthest", "further": "furthest",
+}  # fmt: skip
+_IDLE: Final = frozenset({"is", "'s", "are", "the", "one", "of", "them"})
 
 
 def look_asked_for(tokens: Sequence[Token], names: Sequence[Named], called: Container[str] = ()) -> str:
@@ -71,6 +100,10 @@ def look_asked_for(tokens: Sequence[Token], names: Sequence[Named], called: Cont
         called: Names of robots, in small letters.
     """
     low = [token.low for token in tokens if token.is_word and token.low not in called]
+    if len(names) == 1 and "or" in low[3:]:  # "is the gate open or closed?"
+        low = low[: low.index("or", 3)]
+    if low[0] in _ANY and len(names) == 1:  # "anything at the gate?"
+        return f"check if there is {' '.join(low)}"
     ask = next((at for at, word in enumerate(low[:4]) if word in ("is", "are")), None)
     if ask is None or set(low[:ask]) - _OPENING or len(names) != 1:
         return ""

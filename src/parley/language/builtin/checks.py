@@ -119,16 +119,7 @@ def _subject(builder: Ways, words: Sequence[str]) -> Value | None:
         )
         part = words[at + 1 : end]
     name = [word for word in part if word not in lexicon.classes["determiners"]]
-    if not name or {*name} & {
-        "somebody",
-        "nobody",
-        "anybody",
-        "someone",
-        "anyone",
-        "anything",
-        "something",
-        "nothing",
-    }:
+    if not name or {*name} & _ANYBODY:
         return None
     mention = link(name, len(name) - 1, builder.situation.objects, lexicon)
     if mention.kind == "one":
@@ -137,6 +128,9 @@ def _subject(builder: Ways, words: Sequence[str]) -> Value | None:
         )
     text = " ".join(name)
     return Value(text, with_article(text), (), known_place(name, builder.known))
+
+
+_ANYBODY = {"somebody", "nobody", "anybody", "someone", "anyone", "anything", "something", "nothing"}
 
 
 def _named_anew(builder: Ways, text: str) -> str:

@@ -27,7 +27,7 @@ from parley.language.builtin.structure import Part, Unclear, arranged
 from parley.language.builtin.tokens import Token, spoken, tokenize
 from parley.language.builtin.wishes import Wish
 from parley.language.dialogue import policy
-from parley.language.dialogue.facts import is_report
+from parley.language.dialogue.facts import is_report, is_wish, own_words
 from parley.language.dialogue.indirect import meant
 from parley.language.dialogue.mentions import named
 from parley.language.dialogue.speaker import Again, name_of
@@ -187,6 +187,8 @@ def _sight(
     return Do((*way, *deeds), tuple(builder.notes), (), robots)
 
 
+_NO_FACT = "I did not understand that as a fact about where something is. What shall I do with it?"
+_KEEP = "Shall I remember that? If there is something to do, please say what."
 _SENTENCE = re.compile(r"\w[^.,;:!?]*")
 _I_AM = re.compile(r"\b(?:i|we)(?: a|['’])(?:m|re)\b", re.IGNORECASE)
 _BINDING = re.compile(r"\b(?:if|unless|until|when|while|or|because|but|not)\b", re.IGNORECASE)
@@ -212,19 +214,30 @@ def _offered(
     names = named(tokens, situation.objects, lexicon)
     amiss = is_report(situation.message)
     if not (amiss or policy.only_names(situation, tokens, names, lexicon)):
-        return made
+        return _to_keep(made, situation, lexicon)
     if not amiss and len(names[0].things) > 1:
         which = tuple(thing.description for thing in names[0].things)
         return Ask(which_one(which), which)
     places = [name.things[0] for name in names if len(name.things) == 1]
     if not places:
-        return made
+        return _to_keep(made, situation, lexicon)
     words = tuple(places[-1].description.lower().split())
     frame, role = ("LOOK", "T") if amiss else ("GO", "G")
     about = Filler(role, 0, len(words), len(words) - 1, words)
     deeds = Builder(situation, skills, lexicon, ()).deeds(Wish(frame, 0, "", (about,), 1.0, "agrees"))
     what = f"the {places[-1].description}{' and have a look' if amiss else ''}"
     return made if isinstance(deeds, Ask) else Ask(f"Shall I go to {what}?", offer=tuple(deeds))
+
+
+def _to_keep(made: Ask, situation: Situation, lexicon: Lexicon) -> Ask:
+    """Whether to remember what is told and is neither a fact about a place nor a wish."""
+    text = own_words(situation.message)
+    whom = lexicon.classes["pronouns"] | lexicon.classes["persons"]  # nobody knows later who that was
+    if made.question != _NO_FACT or is_wish(text) or whom & {*re.findall(r"\w+", text.lower())}:
+        return made
+    first, small = text.split(" ", 1)[0].lower(), lexicon.classes["small"] | lexicon.classes["determiners"]
+    text = f"{first}{text[len(first) :]}" if first in small and first != "i" else text
+    return Ask(_KEEP, (f"remember that {text}",))
 
 
 def _alone(
@@ -377,5 +390,5 @@ def _without_order(
         leaves = policy.LEAVES.search(situation.message.lower())
         return Answer("Goodbye." if leaves else "Hello. Tell me what I can do for you.")
     if "told" in reading.acts:
-        return Ask("I did not understand that as a fact about where something is. What shall I do with it?")
+        return Ask(_NO_FACT)
     return Ask("I did not understand that. What shall I do, and with what?")

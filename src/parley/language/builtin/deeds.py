@@ -9,7 +9,7 @@ from parley.language.builtin.checks import Look, check
 from parley.language.builtin.decision import Ask, Deed
 from parley.language.builtin.doing import Doing, slot_of
 from parley.language.builtin.grounding import WITHIN, Value, is_somebody
-from parley.language.builtin.handling import HANDLED
+from parley.language.builtin.handling import HANDLED, is_place
 from parley.language.builtin.judging import asked
 from parley.language.builtin.lexicon import lemmas, stem
 from parley.language.builtin.own_action import OwnAction
@@ -22,8 +22,7 @@ from parley.language.builtin.things import Mention, head_of, link
 from parley.language.builtin.tokens import TITLES
 from parley.language.builtin.wishes import Wish
 from parley.messages.status import Kind
-from parley.umrf.kinds import is_word_for, parameters_of
-from parley.world.object_map import MapObject
+from parley.umrf.kinds import parameters_of
 
 __all__ = ["Builder"]
 
@@ -56,8 +55,8 @@ class Builder(Doing):
         values = self._values(wish)
         if isinstance(values, Ask):
             return values
-        places = {*values} == {"T"} and all(map(self._is_place, values["T"].things or [None]))
-        if wish.frame == "TAKE" and places:
+        places = {*values} == {"T"} and all(map(is_place, values["T"].things or [None]))
+        if wish.frame == "TAKE" and places and "take" in lemmas(wish.verb):
             wish, values = replace(wish, frame="GO"), {"G": values["T"]}  # "take aisle 3": that way
         if wish.frame == "LOOK" and {*values} == {*"LK"} and values["L"].each:
             values["T"] = values.pop("L")  # places that are looked at for something: each is looked at
@@ -96,14 +95,6 @@ class Builder(Doing):
             if is_somebody(thing.words[thing.head]) and not known:
                 return replace(wish, frame="FIND")
         return wish
-
-    @staticmethod
-    def _is_place(thing: MapObject | None) -> bool:
-        """Whether a thing of the map is a place by its class or by a word of its name."""
-        words = (
-            {*thing.class_name.split(), *thing.description.lower().split()} if thing is not None else set()
-        )
-        return any(is_word_for(word, "place") for word in words)
 
     def _placed(self, wish: Wish) -> Wish:
         """With the place of who or what no map holds as a role of its own: "the cup on the desk"."""
@@ -391,7 +382,7 @@ class Builder(Doing):
         said = wish.all("T")[0].words
         if said[0] in TITLES | {"miss"} or is_somebody(said[wish.all("T")[0].head]):
             return Ask(f"I do not pick up people. What shall I do with {thing.said}?")
-        if thing.things and wish.frame in ("GIVE", "PUT") and all(map(self._is_place, thing.things)):
+        if thing.things and wish.frame in ("GIVE", "PUT") and all(map(is_place, thing.things)):
             return Ask(f"I cannot bring {thing.said}. What shall I do there?")
         before = self.before is not None and thing.things == (self.before,)
         if (
@@ -421,7 +412,7 @@ class Builder(Doing):
         if wish.frame == "GO" and "N" in values and "G" in values:
             return Ask(f"Shall I go to {values['G'].said}, or only {values['N'].said} in that direction?")
         things = values["T"].things if "T" in values else ()
-        if wish.frame == "BRING" and things and all(map(self._is_place, things)):
+        if wish.frame == "BRING" and things and all(map(is_place, things)):
             return Ask(f"I cannot bring {values['T'].said}. What shall I do there?")
         if wish.frame != "BRING" or {"R", "G"} & set(values) or wish.verb.split()[0] in _TO_ME:
             return None

@@ -16,7 +16,7 @@ from parley.language.base import (
     InspectionReport,
     ReplyReading,
     Situation,
-)
+)  # fmt: skip
 from parley.language.builtin import pictures
 from parley.language.builtin.addressing import uncalled
 from parley.language.builtin.amending import amended
@@ -123,7 +123,7 @@ class BuiltinLanguage:
             return Ask("That is too much at once. Please say it in shorter pieces.")
         if not any(token.is_word for token in tokenize(situation.message)):
             return Ask("I did not understand that. Please say what I should do.")
-        situation = replace(situation, message=uncalled(situation, self._lexicon))
+        situation = replace(situation, message=self._meant(uncalled(situation, self._lexicon)))
         situation = self._with_past(replace(situation, message=in_turn(situation.message)))
         situation = replace(situation, memory=(*situation.memory, *in_mind(situation)))
         if (taught := own_words(situation, self._lexicon, self.decide)) is not None:
@@ -180,14 +180,17 @@ class BuiltinLanguage:
 
     def reading(self, text: str, names: Names = ()) -> Reading:
         """What a text says, whatever the situation but for the names that are known in it."""
-        return self._read(text, names)[1]
+        return self._read(self._meant(text), names)[1]
+
+    def _meant(self, text: str) -> str:
+        """A text without what is taken back in it: nothing that follows sees what is not meant."""
+        while (cut := amended(self._read(text, ())[0], self._lexicon)) is not None:
+            text = f"{text[: cut[0]]}{text[cut[1] :]}"
+        return text
 
     def _read_text(self, text: str, names: Names = ()) -> tuple[Parse, Reading]:
         tokens = spoken(tokenize(text)) or tokenize(text)
         found = self._steadily(tokens, names)
-        while (instead := amended(found[0], self._lexicon)) is not None:
-            tokens = instead
-            found = self._steadily(tokens, names)
         if not (found[1].unsteady or found[1].left_over):
             return found
         stop = Token(".", tokens[-1].end, tokens[-1].end)  # it helps with names that nobody knows

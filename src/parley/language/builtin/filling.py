@@ -72,11 +72,7 @@ class Filling:
 
 
 def fill(
-    fillers: Sequence[Filler],
-    content: Sequence[int],
-    verb: Sequence[str],
-    slots: Slots,
-    lexicon: Lexicon,
+    fillers: Sequence[Filler], content: Sequence[int], verb: Sequence[str], slots: Slots, lexicon: Lexicon
 ) -> Filling:
     """Fill the inputs of an action from the roles of an order.
 

@@ -107,7 +107,8 @@ class Grounder:
             return Value(filler.text, filler.text)
         plain, filler = filler, self._one_like_it(wish, filler)
         mention = link(filler.words, filler.head, self.situation.objects, self.lexicon)
-        if filler is not plain and mention.things == (self._it(),):  # "the one" is another one
+        lost = mention.kind == "none" and filler.words[filler.head] in ("one", "ones")
+        if lost or (filler is not plain and mention.things == (self._it(),)):  # "the one" is another one
             return self._unknown(filler.text, wish.frame, sought=True)
         if kind == "person":
             return self._person(filler, mention)

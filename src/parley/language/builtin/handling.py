@@ -11,11 +11,19 @@ from parley.language.builtin.skills import Skill
 from parley.language.builtin.spans import Filler
 from parley.language.builtin.ways import Ways
 from parley.language.builtin.wishes import Wish
+from parley.umrf.kinds import is_word_for
+from parley.world.object_map import MapObject
 
-__all__ = ["HANDLED", "Handling"]
+__all__ = ["HANDLED", "Handling", "is_place"]
 
 HANDLED = ("TAKE", "GIVE", "PUT")
 """What is done with a thing by hand, where the robot has one."""
+
+
+def is_place(thing: MapObject | None) -> bool:
+    """Whether a thing of the map is a place by its class or by a word of its name."""
+    words = {*thing.class_name.split(), *thing.description.lower().split()} if thing is not None else set()
+    return any(is_word_for(word, "place") for word in words)
 
 
 @dataclass(slots=True)
@@ -102,7 +110,8 @@ class Handling(Ways):
         """Taking something where it is; by hand of a person if the robot has none."""
         thing, skill, ask = values.get("T"), self.skills.get("TAKE"), self.skills.get("ASK")
         slot = skill.roles.get("T") if skill is not None else None
-        if thing is None or not (slot or (ask is not None and ask.roles)):
+        fixed = thing is not None and thing.things and all(map(is_place, thing.things))
+        if thing is None or fixed or not (slot or (ask is not None and ask.roles)):
             return Ask("I cannot pick things up." if thing else "What shall I take?")
         found = self.look_for(values)
         if isinstance(found, Ask):

@@ -20,7 +20,7 @@ from parley.language.builtin.saying import with_article
 from parley.language.builtin.things import head_of, link, noun_phrase
 from parley.language.builtin.tokens import tokenize
 from parley.language.dialogue.answers import differences, listed
-from parley.language.dialogue.mentions import named
+from parley.language.dialogue.mentions import named_alone
 from parley.language.dialogue.places import rooms
 from parley.language.dialogue.questions import asks, plain, question_of
 from parley.language.dialogue.replies import chosen, names_deed, words_of
@@ -249,9 +249,7 @@ class Repairer:
             if {stem(word) for word in place.thing.split()} <= about:
                 return self._kept(situation, reply, self._at_place(situation, place))
         tokens = tokenize(reply)
-        things = [
-            one.things[0] for one in named(tokens, situation.objects, self.lexicon) if len(one.things) == 1
-        ]
+        things = named_alone(tokens, situation.objects, self.lexicon)
         things = things or self._lettered(situation, [token.text for token in tokens])
         if len(things) != 1 or len(words_of(reply)) > _LONGEST or not self._only_names(reply, things[0]):
             return None

@@ -17,7 +17,7 @@ from parley.language.builtin.decision import (
     Forget,
     Remember,
     Told,
-)
+)  # fmt: skip
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.structure import Part
 from parley.language.builtin.wishes import Wish

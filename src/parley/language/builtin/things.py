@@ -123,12 +123,21 @@ def _called(words: Sequence[str], objects: Sequence[MapObject], lexicon: Lexicon
     leads = lexicon.classes["prepositions"] | lexicon.classes["determiners"]
     while start < len(words) - 1 and words[start] in leads:
         start += 1
-    said = stems([word for word in words[start:] if word not in ("'s", "’s")])  # "the baby's chair"
-    return [
-        item
-        for item in objects
-        if any(stems(name.split()) == said for name in (item.description, *item.aliases))
-    ]
+    said = [word for word in words[start:] if word not in ("'s", "’s")]  # "the baby's chair"
+
+    def bare(name: Sequence[str]) -> tuple[str, ...]:  # "the crate with lid" is the one "with a lid"
+        inner = (word for word in name[1:-1] if word not in lexicon.classes["determiners"])
+        return stems([*name[:1], *inner, *name[1:][-1:]])
+
+    for told in (stems, bare):
+        found = [
+            item
+            for item in objects
+            if any(told(name.split()) == told(said) for name in (item.description, *item.aliases))
+        ]
+        if found:
+            return found
+    return []
 
 
 def _content(words: Sequence[str], lexicon: Lexicon) -> list[str]:

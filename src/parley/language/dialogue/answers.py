@@ -25,6 +25,7 @@ __all__ = ["answer", "deed_words", "differences", "listed", "step_words"]
 _OPEN: Final = ("queued", "running", "waiting", "paused")
 _MOST: Final = 5
 _BESIDE_M: Final = 2.0
+_AROUND_M: Final = 5.0
 _SPEED: Final = (
     "I choose my speed by myself and cannot change it for one way. Say “stop” at any time. A limit can be "
     "made a rule: “do not drive faster than 0.2 m/s”."
@@ -318,9 +319,12 @@ def _looks(situation: Situation) -> list[Deed]:
 
 def _seen(situation: Situation, about: str) -> str:
     looks = [deed for deed in _looks(situation) if _stems(about) <= _stems(deed.label)]
+    now = _NOW.search(situation.message.lower()) is not None  # that is looked at, not told
     if about and not looks:
-        return "I have not looked there with my camera yet."
+        return "" if now else "I have not looked there with my camera yet."
     here = f"I am {whereabouts(situation.objects, situation.robot_pose)}."
+    if not looks and now and re.search(r"\bit\b", situation.message):
+        return ""
     if not looks:
         return (
             "I have not looked at anything with my camera yet, so I have seen nothing to tell. "
@@ -338,6 +342,7 @@ def _when(look: Deed) -> str:
     return f"That was {_at(look.unix_ms)}, when I was to {step_words(look.label)}."
 
 
+_NOW: Final = re.compile(r"\b(?:now|is there|are there)\b|^\W*any")
 _THERE: Final = re.compile(r"\b(?:there|here|it|inside)\b", re.IGNORECASE)
 """Said of the last look alone; else all that was looked at for the same order counts."""
 
@@ -410,7 +415,11 @@ def _how_long(situation: Situation, about: str) -> str:
 
 
 def _how_far(situation: Situation, about: str) -> str:
-    """How far something of the map is; of "it", how long the way still takes."""
+    """How far something of the map is, from here or another thing; of "it", how long the way still takes."""
+    both = [thing for part in about.split(" from ") for thing in _things(situation, part)]
+    if " from " in about and len(both) == 2:
+        gap_m = both[0].gap_m(both[1].x_m, both[1].y_m)
+        return f"By my map they are about {round(max(gap_m, 2.0))} metres apart."
     things = _things(situation, about)
     if len(things) != 1:
         return _how_long(situation, about) if situation.dialogue.steps else ""
@@ -423,10 +432,12 @@ def _whats_in(situation: Situation, about: str) -> str:
     room = about.lower() if about.lower() in rooms(situation.objects) else ""
     things = _things(situation, about) if not room else ()
     found = in_room(room, situation.objects, situation.robot_pose) if room else ()
+    at, far_m = situation.robot_pose if about in ("", "here", "you", "me", "us") else None, _AROUND_M
     if len(things) == 1:
-        at = Pose2D(things[0].x_m, things[0].y_m, 0.0)
+        at, far_m = Pose2D(things[0].x_m, things[0].y_m, 0.0), _BESIDE_M
+    if at is not None:
         near = sorted(situation.objects, key=lambda item: distance_m(item, at))
-        found = tuple(item for item in near if item is not things[0] and distance_m(item, at) < _BESIDE_M)
+        found = tuple(item for item in near if item not in things and distance_m(item, at) < far_m)
     names = [called(item.description) for item in found[:_MOST]]
     return f"By my map: {listed(names)}. What is there now I only see when I look." if names else ""
 

@@ -230,7 +230,7 @@ def change_of(
     if not names:
         return None
     if takes_back or against:
-        return _replaced(plan, against, for_[-1], text)
+        return _replaced(plan, against, for_[0], text) if len(for_) == 1 else None
     return _put_in(plan, for_, text)
 
 

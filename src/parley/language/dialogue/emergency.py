@@ -12,7 +12,7 @@ from parley.language.builtin.grounding import is_somebody
 from parley.language.builtin.lexicon import Lexicon, lemmas
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.tokens import Token, tokenize
-from parley.language.dialogue.mentions import named
+from parley.language.dialogue.mentions import named, named_alone
 from parley.language.dialogue.places import rooms
 
 __all__ = ["NO_ALARM", "emergency", "is_emergency"]
@@ -136,8 +136,8 @@ def _to_be_seen(
     situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, again: Callable[[str], Decision]
 ) -> Ask | None:
     """What is amiss with a thing is offered to be looked at; None if nobody knows where that is."""
-    names = [name for name in named(tokens, situation.objects, lexicon) if len(name.things) == 1]
-    where = names[-1].things[0].description if names else ""
+    things = named_alone(tokens, situation.objects, lexicon)
+    where = things[-1].description if things else ""
     made = again(f"check the {where}") if where else None
     if not isinstance(made, Do) or situation.status == "running":
         return None

@@ -18,8 +18,8 @@ from parley.language.dialogue.questions import asks
 from parley.messages.memory import MemoryEntry
 
 __all__ = [
-    "asks_to_keep", "forgotten", "in_mind", "is_report", "is_wish", "kept_in_mind", "moved_fact",
-    "other_fact", "taken_back", "worth_keeping",
+    "NAME", "asks_to_keep", "forgotten", "in_mind", "is_report", "is_wish", "kept_in_mind", "moved_fact",
+    "other_fact", "own_words", "taken_back", "worth_keeping",
 ]  # fmt: skip
 
 _PRONOUNS: Final = frozenset({"he", "she", "they", "it", "this", "that", "these", "those", "they're", "it's"})
@@ -43,7 +43,7 @@ _FORGET: Final = re.compile(
     r"(?:please |you can |you may |can you |could you )*forget (?:about |all about |what (?:i|"
     r"we) (?:told you|said) about |everything about |that |where |who |what |how |when )*(?P<about>.+)"
 )
-_NAME: Final = re.compile(
+NAME: Final = re.compile(
     r"(?!(?:It|There|The|This|That|I|He|She|They|We|You|My|Here|Ok|Okay|Yes|No|All|Everything|Done|Now|"
     r"Sorry|Your)\b)(?:(?:Mr|Mrs|Ms|Dr)\.? )?[A-Z][a-z]+ (?!$)"
 )
@@ -116,7 +116,7 @@ def worth_keeping(situation: Situation, bare: str, *, beside: bool = False) -> b
         or calls_to_stop(message)
         or has_stop_word(" ".join(message.split()[:2]))
         or control_of(message, situation.robots) is not None
-        or (situation.question and _KEEP.match(bare) is None and _NAME.match(message.strip()) is None)
+        or (situation.question and _KEEP.match(bare) is None and NAME.match(message.strip()) is None)
     )
 
 
@@ -196,12 +196,13 @@ def other_fact(situation: Situation, reading: Reading, bare: str) -> Told | None
         return None
     if not asked and (words[0] in _FIRST | _PRONOUNS or _BEING.search(" ".join(words[1:])) is None):
         return None
-    text = _own_words(situation.message)
+    text = own_words(situation.message)
     name = "_".join(re.findall(r"\w+", " ".join(words[:6])))[:150]
     return Told(name, text, text) if name and text else None
 
 
-def _own_words(message: str) -> str:
+def own_words(message: str) -> str:
+    """What is told in a message, without what only leads to it."""
     text = message.strip().rstrip(".!")
     text = re.sub(
         r"^(?:(?:please|and|so|ok|okay|also|well|oh|hey|remember|note|keep in mind|"
@@ -225,7 +226,7 @@ def taken_back(
         if turn.role != "operator" or turn.content.rstrip().endswith("?"):
             continue
         names = {fact.name: fact for fact in told_in(turn.content)}
-        said = _own_words(turn.content).casefold()
+        said = own_words(turn.content).casefold()
         kept = {entry.name: entry for entry in situation.memory if entry.data.casefold() == said}
         told = {name: MemoryEntry(name=name, data=fact.text) for name, fact in names.items()}
         return tuple((told | kept).values())

@@ -12,7 +12,7 @@ from parley.language.builtin.things import head_of, link, main_word
 from parley.language.builtin.tokens import Token
 from parley.world.object_map import MapObject
 
-__all__ = ["Named", "named", "same_kind", "same_word"]
+__all__ = ["Named", "named", "named_alone", "same_kind", "same_word"]
 
 _LONGEST = 8
 _IN_TIME = {"before", "after"}
@@ -66,6 +66,11 @@ def named(tokens: Sequence[Token], objects: Sequence[MapObject], lexicon: Lexico
             found.append(best)
         start = best.end if best is not None else start + 1
     return found
+
+
+def named_alone(tokens: Sequence[Token], objects: Sequence[MapObject], lexicon: Lexicon) -> list[MapObject]:
+    """The things that are named so that no other one can be meant, in the order of the words."""
+    return [name.things[0] for name in named(tokens, objects, lexicon) if len(name.things) == 1]
 
 
 def _longest(

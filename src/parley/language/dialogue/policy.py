@@ -10,6 +10,7 @@ from typing import Final
 from parley.gate.assent import gives_up
 from parley.gate.control import control_of
 from parley.language.base import Situation
+from parley.language.builtin.answers import most_asked
 from parley.language.builtin.decision import Answer, Ask, Decision, Do, Edit, Forget, Remember, Told
 from parley.language.builtin.facts import Place
 from parley.language.builtin.lexicon import Lexicon, lemmas
@@ -25,6 +26,7 @@ from parley.language.dialogue.changes import Change, before_all, change_of, reor
 from parley.language.dialogue.choosing import choice_of
 from parley.language.dialogue.emergency import NO_ALARM, emergency, is_emergency
 from parley.language.dialogue.facts import (
+    NAME,
     forgotten,
     is_report,
     is_wish,
@@ -32,10 +34,10 @@ from parley.language.dialogue.facts import (
     other_fact,
     taken_back,
     worth_keeping,
-)
+)  # fmt: skip
 from parley.language.dialogue.following import followed
 from parley.language.dialogue.later import PROMISE, due, put_off
-from parley.language.dialogue.mentions import Named, named
+from parley.language.dialogue.mentions import Named, named, named_alone
 from parley.language.dialogue.places import in_room, rooms
 from parley.language.dialogue.questions import plain, question_of
 from parley.language.dialogue.rearranging import rearranged
@@ -90,7 +92,10 @@ def beforehand(
     said = alarm or _about_itself(situation, tokens, told_in)
     if said is not None:
         return said
-    if is_emergency(situation) and (agreed := _agreed(situation, reading, again)) is not None:
+    asked = situation.dialogue.asked
+    last = next((turn.content for turn in reversed(situation.history) if turn.role == "operator"), "")
+    one = asked is not None and len(asked.choices) == 1 and asked.words == last
+    if (one or is_emergency(situation)) and (agreed := _agreed(situation, reading, again)) is not None:
         return afterwards(agreed, situation, reading, tokens, lexicon)
     chose = answered_place(situation, lexicon, again) or choice_of(situation, tokens, again)
     if chose is not None:
@@ -102,7 +107,23 @@ def beforehand(
     if here is not None:
         return here
     moved = moved_fact(situation, reading, tokens, lexicon, told_in)
-    return Remember((moved,)) if moved is not None else None
+    return Remember((moved,)) if moved is not None else _of_whom(last, situation, reader, again)
+
+
+def _of_whom(
+    last: str, situation: Situation, reader: Callable[[str], Reading], again: Again
+) -> Remember | None:
+    """What is told of "she", where it was told just before of somebody by name."""
+    said, name = _OF_ONE.match(situation.message), NAME.match(last)
+    if said is None or name is None or not reader(last).acts & {"told", "need"}:
+        return None
+    made = again(f"{name[0].strip()}{said['rest']}")
+    return made if isinstance(made, Remember) else None
+
+
+_OF_ONE: Final = re.compile(
+    r"\W*(?:(?:and|but|oh|well|so)\W+)*(?:she|he)(?P<rest>(?:['’]s| is| has) .+)", re.IGNORECASE
+)
 
 
 def _agreed(situation: Situation, reading: Reading, again: Again) -> Decision | None:
@@ -112,7 +133,9 @@ def _agreed(situation: Situation, reading: Reading, again: Again) -> Decision | 
     if asked is None or not asked.choices or "yes" not in reading.moves or not there:
         return None
     made = again(asked.choices[0])
-    return replace(made, about=asked.words) if isinstance(made, Do) else made
+    if isinstance(made, Remember | Edit):
+        return made
+    return replace(made, about=asked.words) if isinstance(made, Do) else None
 
 
 def _about_itself(
@@ -148,11 +171,7 @@ def _about_itself(
 
 
 def _about_what_was_said(
-    situation: Situation,
-    reading: Reading,
-    tokens: Sequence[Token],
-    lexicon: Lexicon,
-    again: Again,
+    situation: Situation, reading: Reading, tokens: Sequence[Token], lexicon: Lexicon, again: Again
 ) -> Decision | None:
     """Something once more, later, instead; or what nobody like this robot can do."""
     bare = plain(tokens, (situation.robot,))
@@ -173,7 +192,7 @@ def _about_what_was_said(
         made = _ordered(asked)
         if made is not None:
             return afterwards(made, situation, reading, tokens, lexicon)
-        if isinstance(asked, Ask) and asked.choices:
+        if isinstance(asked, Ask) and asked.choices and "told" not in reading.acts:
             return asked
     change = rearranged(situation, tokens, lexicon) or change_of(situation, tokens, lexicon, orders=False)
     if change is None and situation.dialogue.orders:
@@ -254,8 +273,8 @@ def _beyond(
     }
     if not verb or verb in known or situation.question:
         return None
-    places = [name for name in named(tokens, situation.objects, lexicon) if len(name.things) == 1]
-    near = f" I can go to the {places[-1].things[0].description}, if that helps." if places else ""
+    places = named_alone(tokens, situation.objects, lexicon)
+    near = f" I can go to the {places[-1].description}, if that helps." if places else ""
     return Answer(f"I am sorry, I cannot {verb}: none of my actions does that.{near}")
 
 
@@ -329,7 +348,7 @@ def _of_what_is_told(
 
 _INTRODUCED: Final = re.compile(
     r"(?:(?:Hello|Hi|Hey|Good \w+)(?: \w+)?[,.!] *)?(?:I am|I'm|I’m|[Mm]y name is|[Tt]his is) "
-    r"(?P<name>[A-Z][\w'’-]+)(?:,? (?:the|your|from) [\w ]+)?[.!]?"
+    r"(?P<name>[A-Z][\w'’-]+)(?:,? (?:the|your|from|(?:and )?I(?: am|['’]m| work)) [\w ]+)?[.!]?"
 )
 """For "I'm Maria, the new guard"."""
 _AROUND: Final = re.compile(
@@ -430,7 +449,7 @@ def _superfluous(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon
     if _DONE.search(situation.message) is None or situation.message.rstrip().endswith("?"):
         return None
     planned = {thing.id for visit in visits(situation) for thing in visit.things}
-    things = [one.things[0] for one in named(tokens, situation.objects, lexicon) if len(one.things) == 1]
+    things = named_alone(tokens, situation.objects, lexicon)
     names = [thing.description for thing in things if thing.id in planned]
     if not names:
         return None
@@ -489,22 +508,29 @@ def spoken_of(
     thing: MapObject | Place | None = _found(situation)
     place: MapObject | Place | None = None
     person: Place | None = None
+    open_ = False
     for turn in reversed(situation.history[-_TURNS:]):
         if turn.role != "operator":
             continue
         order = orders.get(turn.content)
         texts = [words for call in order.calls for words in texts_of(call)] if order is not None else []
-        low = {token.low for token in tokenize(turn.content)}
+        tokens = tokenize(turn.content)
+        low, names = {token.low for token in tokens}, named(tokens, situation.objects, lexicon)
         if person is None:
             person = next((p for p in known if _is_called(p) and {*p.thing.lower().split()} <= low), None)
-        if thing is None:  # "my book is on the desk" speaks of the book
-            bare = not named(tokenize(turn.content), situation.objects, lexicon)
+        if thing is None and not open_:  # "my book is on the desk" speaks of the book
+            bare = not names
             thing = next(
                 (p for p in known if not _is_called(p) and _tells_of(p, turn.content, low, bare)), None
             )
-        if thing is None:
-            found = _thing_in([*reversed(texts), turn.content], low, situation, lexicon)
-            if "there" in low and not named(tokenize(turn.content), situation.objects, lexicon):
+        if {"it", "them"} & low and names:  # "bring it to the gate" speaks of something else than the gate
+            place = place or names[-1].things[0]
+        elif thing is None and not open_:
+            most = most_asked(tokens, situation, lexicon)
+            found = most[0] if len(most) == 1 else None
+            found = found or _thing_in([*reversed(texts), turn.content], low, situation, lexicon)
+            open_ = found is None and len(names) == 1 and len(names[0].things) > 1  # "are there any crates?"
+            if "there" in low and not names:
                 place = place or found  # "go there" brings up nothing new
             else:
                 thing = found
@@ -534,9 +560,7 @@ def _thing_in(
     texts: Sequence[str], low: set[str], situation: Situation, lexicon: Lexicon
 ) -> MapObject | None:
     for text in texts:
-        names = named(tokenize(text), situation.objects, lexicon)
-        single = [name.things[0] for name in names if len(name.things) == 1]
-        if single:
+        if single := named_alone(tokenize(text), situation.objects, lexicon):
             return single[-1]
     if spaces := [room for room in situation.rooms if {*room.description.lower().split()} <= low]:
         return spaces[-1]

@@ -30,17 +30,9 @@ from parley.umrf.kinds import parameters_of
 from parley.world.object_map import MapObject
 
 __all__ = [
-    "Taught",
-    "entry_of",
-    "founded",
-    "key",
-    "meant",
-    "named",
-    "problem_of",
-    "reserved",
-    "taught_in",
+    "Taught", "entry_of", "founded", "key", "meant", "named", "problem_of", "reserved", "taught_in",
     "with_names",
-]
+]  # fmt: skip
 
 Value = str | int | float | bool
 

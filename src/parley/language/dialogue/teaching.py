@@ -19,7 +19,7 @@ from parley.language.dialogue.taught import (
     reserved,
     taught_in,
     with_names,
-)
+)  # fmt: skip
 from parley.language.lexicon import load_data
 from parley.messages.chat import ActionCall
 from parley.sentences import Sentence, listed, sentence

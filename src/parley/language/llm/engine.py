@@ -341,12 +341,7 @@ class LlmLanguage(Opened):
     # -- accounting ------------------------------------------------------------------------------------
 
     async def _note(
-        self,
-        prompt: Prompt,
-        messages: Sequence[ModelMessage],
-        usage: RunUsage,
-        latency_s: float,
-        error: str,
+        self, prompt: Prompt, messages: Sequence[ModelMessage], usage: RunUsage, latency_s: float, error: str
     ) -> None:
         cost_usd = self._cost(messages, usage)
         exchange = Exchange(
