@@ -20,7 +20,7 @@ from parley.messages.principal import Principal, person
 from parley.messages.ros import ChatRequest
 from parley.messages.rule_requests import RuleRequest, RulesAnswer
 from parley.messages.rules import Hours
-from parley.messages.status import StopCommand
+from parley.messages.status import PlanProposal, PlanUpdate, StopCommand
 from parley.messages.wire import decode, encode
 from parley.system import System
 from tests.demos.house import House
@@ -161,6 +161,15 @@ async def test_a_told_rule_is_shown_as_what_it_becomes_and_counts_after_a_yes() 
         assert "Shall I drop this rule" in (await it.question()).message
         assert (await it.say("yes", answer=True)).message == "The rule does not hold any more."
         assert it.held == []
+
+
+async def test_a_dont_is_a_rule_unless_it_is_about_what_waits_for_a_yes() -> None:
+    async with crew() as it:
+        waits = PlanProposal(id="p1", target="A", labels=("Go to “red crate”",), digest="d")
+        it.observer.publish(topics.PLAN, waits)
+        it.observer.publish(topics.PLAN, PlanUpdate(target="A", state="awaiting_approval"))
+        it.observer.say("don't go near the green crate", "A")
+        assert "Stays out of “green crate”" in (await it.question()).message
 
 
 async def test_a_rule_that_is_told_while_another_is_asked_about_leaves_that_question_open() -> None:

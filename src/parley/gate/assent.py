@@ -51,7 +51,8 @@ _NO_PARTS: Final = frozenset({
 _TO_SEE: Final = frozenset({
     "go and see", "go see", "go and look", "go look", "have a look", "take a look", "go and have a look",
     "go and take a look", "go and check", "go check", "look", "check", "check it", "see for yourself",
-    "go there and look", "go there and see", "go over there", "mine vaata", "vaata järele",
+    "go there and look", "go there and see", "go over there", "find out", "go and find out",
+    "mine vaata", "vaata järele",
 })  # fmt: skip
 """A yes where it was offered to go and look."""
 _FILLERS: Final = frozenset({

@@ -345,3 +345,36 @@ def test_who_wants_to_know_has_it_looked_at_and_who_wonders_is_asked() -> None:
     assert isinstance(told("I need to know if the gate is locked"), Do)
     wondered = told("I wonder if the gate is locked")
     assert isinstance(wondered, Ask) and wondered.offer
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "check whether there's a leak at the old crate and the gate",
+        "check if there are any leaks at the old crate and at the gate",
+        "check the old crate and the gate and tell me if you see any leaks",
+    ],
+)
+def test_each_place_that_is_named_in_what_is_looked_for_is_looked_at(said: str) -> None:
+    made = told(said)
+    assert isinstance(made, Do)
+    shown = [deed for deed in made.deeds if not deed.hidden]
+    ways = [str(deed.arguments["target"]) for deed in made.deeds if deed.hidden]
+    assert ways == ["old crate", "gate"]
+    assert shown[-1].frame in ("LOOK", "FIND")
+    assert all(" and " not in str(value) for deed in shown for value in deed.arguments.values())
+
+
+def test_how_many_stand_at_a_place_is_told_of_that_place_alone() -> None:
+    yard = (*CRATES, MapObject("y", "yard", 2.0, 1.0, width_m=3.0, height_m=3.0))
+    made = told("how many crates are in the yard?", objects=yard)
+    assert isinstance(made, Answer)
+    assert made.text == "On my map there is the old crate."
+    none = told("how many crates are at the gate?")
+    assert isinstance(none, Answer)
+    assert none.text.startswith("By my map there is none there.")
+
+
+def test_a_look_is_offered_for_the_last_sentence_of_several() -> None:
+    made = told("We've got a visitor coming. Is the gate clear?")
+    assert isinstance(made, Ask) and made.offer

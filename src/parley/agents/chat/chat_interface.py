@@ -518,14 +518,15 @@ class ChatInterface(Node):
 
     async def _about_rules(self, target: str, said: ChatInput, ours: str) -> bool:
         """Whether a message was about rules; what becomes one is decided by code and a person's yes."""
-        status = self._presence.get(target)
+        status, offered = self._presence.get(target), self._offered.newest(target)
+        waits = "; ".join(offered.lines) if offered is not None else ""
         to = Listener(
             target,
             self._presence.names(),
             self._known.objects(target),
             status.catalogue if status else (),
             busy=self._known.state(target) != "idle",
-            doing=self._known.doing(target),
+            doing=self._known.doing(target) or waits,
         )
         if self._rules is not None and self._rules.concerns(said.message, to):  # names of their own are names
             known = taught_in(await recall(self.transport, said.message, scope=target))

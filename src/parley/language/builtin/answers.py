@@ -21,6 +21,7 @@ from parley.world.object_map import MapObject
 __all__ = ["answer", "look_asked_for", "most_asked"]
 
 
+_IN_M: Final = 0.5
 _NO_ANSWER: Final = "I cannot answer that. I can tell where a thing is, if it is on my map or was told to me."
 
 
@@ -57,7 +58,15 @@ def answer(
             return Answer("How that is now I only see when I look there.")
         return told or Answer(_lying(situation, mention.things[0]))
     if mention.kind == "several":
-        both = " and ".join(with_article(item.description) for item in mention.things)
+        tokens = tokenize(situation.message)
+        led = [at for at, token in enumerate(tokens) if token.low in lexicon.classes["prepositions"]]
+        spots = named_alone(tokens[led[-1] :], situation.objects, lexicon) if led else []
+        here = [
+            item for item in mention.things if any(one.gap_m(item.x_m, item.y_m) < _IN_M for one in spots)
+        ]
+        if spots and not here:
+            return Answer("By my map there is none there. What is there now I only see when I look.")
+        both = " and ".join(with_article(item.description) for item in here or mention.things)
         return Answer(f"On my map there is {both}.")
     if {*thing.words} & _ANY:
         return Answer(_NO_ANSWER)
@@ -99,7 +108,8 @@ def look_asked_for(tokens: Sequence[Token], names: Sequence[Named], called: Cont
         names: What it names on the map.
         called: Names of robots, in small letters.
     """
-    low = [token.low for token in tokens if token.is_word and token.low not in called]
+    last = max((at for at, token in enumerate(tokens[:-1]) if token.text in ".!?;"), default=-1)
+    low = [token.low for token in tokens[last + 1 :] if token.is_word and token.low not in called]
     if len(names) == 1 and "or" in low[3:]:  # "is the gate open or closed?"
         low = low[: low.index("or", 3)]
     if low[0] in _ANY and len(names) == 1:  # "anything at the gate?"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -43,8 +44,8 @@ def check(builder: Ways, words: Sequence[str], text: str) -> Look | Ask:
         text: The same as it was said.
     """
     lexicon = builder.lexicon
-    plain, holds = _without_not(text)
-    if not holds:
+    plain, holds = _without_not(_LED_TWICE.sub(r"\1 and ", text))
+    if plain != text:
         text, words = plain, [token.low for token in tokenize(plain)]
     spoken = [word for word in words if word[0].isalnum() or word[0] in "'’"]
     unseen = [
@@ -92,6 +93,8 @@ def _where(builder: Ways, said: Sequence[str], text: str) -> list[tuple[Value | 
     return place if isinstance(place, Ask) else [(place, f"whether {_named_anew(builder, text)}")]
 
 
+_LED_TWICE = re.compile(r"\b((at|in|on|by|near) [\w ]+?) and \2 (?=\w)", re.IGNORECASE)
+"""As in "at the desk and at the gate"."""
 _NOTS = {"isn't": "is", "aren't": "are", "isn’t": "is", "aren’t": "are", "hasn't": "has", "wasn't": "was"}
 
 
@@ -160,6 +163,8 @@ def _each(builder: Ways, words: Sequence[str]) -> list[tuple[Value | None, str]]
         lexicon.classes["quantifiers"] - {"everything", "everyone", "everybody"}
     )
     at = next((n for n, word in enumerate(words) if word in ("is", "are", "'s", "has", "have")), 0)
+    if not at and {*words[:1]} <= {"you"}:
+        among -= {"any"}  # "if you see any leaks"
     if not at:
         return Ask(f"I do not understand “{next(iter(among))}” in this. Please name them.") if among else []
     subject = [word for word in words[:at] if word not in ("any", "one", "no", "of", "either")]

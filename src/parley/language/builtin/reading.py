@@ -42,7 +42,11 @@ def read(parse: Parse, lexicon: Lexicon) -> Reading:
     """What is wished and told."""
     wishes: list[Wish] = []
     parse = replace(parse, spans=tuple(_listed_on(parse, span) for span in parse.spans))
-    spans = [part for span in _ordered_alone(parse, _merged(parse)) for part in _by_way(parse, span, lexicon)]
+    spans = [
+        part
+        for span in _ordered_alone(parse, _merged(parse, lexicon))
+        for part in _by_way(parse, span, lexicon)
+    ]
     spans = [part for span in spans for part in _one_by_one(parse, span, lexicon)]
     spans = [_going_on(parse, span, spans[:at]) for at, span in enumerate(spans)]
     fillers = [_filler(parse, span, lexicon) for span in spans]
@@ -103,7 +107,15 @@ def _only_told(parse: Parse, span: Span) -> bool:
     return acts <= {"need", "told"} and behind is not None and parse.acts[behind] == "order"
 
 
-def _merged(parse: Parse) -> list[Span]:
+def _at_places(parse: Parse, last: Span, span: Span, lexicon: Lexicon) -> bool:
+    """Whether a further place follows one in a statement: "if there is a box at the desk and the gate"."""
+    low = [token.low for token in parse.tokens[last.start : last.end]]
+    led = max((at for at, word in enumerate(low) if word in lexicon.classes["prepositions"]), default=0)
+    states = {*low[led:]} & lexicon.classes["being"] or led == 0
+    return last.role == "K" and span.role in "TLG" and not states
+
+
+def _merged(parse: Parse, lexicon: Lexicon) -> list[Span]:
     """Spans of one role that touch each other are one; a role behind a later verb belongs to that one."""
     found: list[Span] = []
     for span in parse.spans:
@@ -121,7 +133,8 @@ def _merged(parse: Parse) -> list[Span]:
         if last is not None and (same := _same_one(parse, last, span)) is not None:
             found[-1] = same
             continue
-        if last is not None and last.role == span.role == "L" and span.owner in (None, last.owner):
+        alike = last is not None and (last.role == span.role == "L" or _at_places(parse, last, span, lexicon))
+        if alike and last is not None and span.owner in (None, last.owner):
             between = [token.low for token in parse.tokens[last.end : span.start]]
             if {*between} <= {",", "and"} and "and" in between:  # "at the desk and at the gate"
                 found[-1] = replace(last, end=span.end, share=min(last.share, span.share))

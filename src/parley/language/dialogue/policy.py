@@ -223,9 +223,9 @@ def _ordered(made: Decision) -> Do | None:
 
 
 _TAKEN_BACK: Final = re.compile(
-    r"\W*(?:(?:oh|no|ah|ok|okay|well|hm+|please|sorry|actually|wait|ugh)\W+)*"
-    r"(?:(?:forget (?:it|that|this|about (?:it|that))|never ?mind(?: (?:it|that|this))?|scratch (?:that|it)|"
-    r"drop (?:that|it)|leave (?:that|it)|cancel (?:that|it)|not that)"
+    r"\W*(?:(?:oh|no|ah|ok|okay|well|hm+|please|sorry|actually|wait|ugh|fine|right)\W+)*"
+    r"(?:(?:(?:forget|skip) (?:it|that|this|about (?:it|that))|never ?mind(?: (?:it|that|this))?|"
+    r"scratch (?:that|it)|drop (?:that|it)|leave (?:that|it)|cancel (?:that|it)|not that)"
     r"(?=\s*(?:[^\w\s]|(?:and|then|just|please|instead|now|but|go|come|drive|check|look|take|bring)\b))|"
     r"change of plans?|on second thoughts?|i(?: have|'ve)? changed my mind|that was wrong|nope|"
     r"no(?! (?:need to (?!hurry)|need for|one|more|way|matter|longer)\b)|"
@@ -523,7 +523,11 @@ def spoken_of(
             thing = next(
                 (p for p in known if not _is_called(p) and _tells_of(p, turn.content, low, bare)), None
             )
-        if {"it", "them"} & low and names:  # "bring it to the gate" speaks of something else than the gate
+        if {
+            "it",
+            "them",
+            "one",
+        } & low and names:  # "bring it to the gate" speaks of something else than the gate
             place = place or names[-1].things[0]
         elif thing is None and not open_:
             most = most_asked(tokens, situation, lexicon)
