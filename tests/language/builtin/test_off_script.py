@@ -317,6 +317,9 @@ def test_she_is_who_was_told_of_by_name_and_nobody_else() -> None:
     kept = told("she is at the gate", "Anna would like a glass of water")
     assert isinstance(kept, Remember)
     assert [fact.text for fact in kept.told] == ["Anna is at the gate"]
+    other = told("she is at the gate", "Ada, Kim's bag is at the old crate")
+    assert isinstance(other, Remember)
+    assert [(fact.name, fact.text) for fact in other.told] == [("kim_location", "Kim is at the gate")]
     lost = told("she is at the gate", "Check the old crate")
     assert isinstance(lost, Ask) and not lost.choices
 
@@ -376,5 +379,12 @@ def test_how_many_stand_at_a_place_is_told_of_that_place_alone() -> None:
 
 
 def test_a_look_is_offered_for_the_last_sentence_of_several() -> None:
-    made = told("We've got a visitor coming. Is the gate clear?")
-    assert isinstance(made, Ask) and made.offer
+    for said in ("We've got a visitor coming. Is the gate clear?", "Is the gate clear? We need it"):
+        made = told(said)
+        assert isinstance(made, Ask) and made.offer
+
+
+def test_a_call_by_name_is_no_part_of_what_is_told() -> None:
+    made = told("Ada, Maie's medicine is at the gate")
+    assert isinstance(made, Remember)
+    assert [fact.text for fact in made.told] == ["Maie's medicine is at the gate"]

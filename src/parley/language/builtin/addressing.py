@@ -66,14 +66,18 @@ def addressed(situation: Situation, tokens: Sequence[Token]) -> tuple[str, ...] 
 
 
 def uncalled(situation: Situation, lexicon: Lexicon) -> str:
-    """The message without the name of who hears it at either end, where that is also a deed: "Spot, go"."""
+    """The message without the name of who hears it at either end: "Spot, Kim is in the yard"."""
     name, said = situation.robot, situation.message
-    if (name.lower(),) not in lexicon.verbs:
+    if not name:
         return said
     call = rf"\W*(?:(?:hey|ok|okay|please|hi|hello),? )?{re.escape(name)}\b([,:!–-]*)\s+(?=(\w+))"
     before = re.match(call, said, re.IGNORECASE)
-    if before and (before[1] or (before[2].lower(),) in lexicon.verbs):
+    others = {word.lower() for one in situation.robots for word in one.split()} | {"and"}
+    deed = (name.lower(),) in lexicon.verbs and before and (before[2].lower(),) in lexicon.verbs
+    if before and (before[1] or deed) and before[2].lower() not in others:
         return said[before.end() :]
+    if (name.lower(),) not in lexicon.verbs:
+        return said
     return re.sub(rf",\s*{re.escape(name)}(?=[.!?]*$)", "", said, flags=re.IGNORECASE)
 
 

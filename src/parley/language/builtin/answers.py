@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Container, Sequence
 from typing import Final
 
@@ -35,13 +36,13 @@ def answer(
     """What is known about what is asked for; "it" is what was spoken of `before`."""
     fillers = [*(filler for wish in reading.wishes for filler in wish.fillers), *reading.loose]
     thing = next((filler for filler in fillers if filler.role == "T"), None)
+    if len(most := most_asked(tokenize(situation.message), situation, lexicon)) == 1:
+        return Answer(_lying(situation, most[0]))
     if thing is None and _is_about_failure(situation, lexicon):
         return _spoken_of(situation, before)
     if thing is None:
         return _kept(situation, lexicon) or Answer(_NO_ANSWER)
     mention = link(thing.words, thing.head, situation.objects, lexicon)
-    if len(most := most_asked(tokenize(situation.message), situation, lexicon)) == 1:
-        return Answer(_lying(situation, most[0]))
     if mention.kind == "pronoun":
         return _spoken_of(situation, before)
     name, _ = noun_phrase(thing.words, thing.head, lexicon)
@@ -77,24 +78,21 @@ def answer(
 def most_asked(tokens: Sequence[Token], situation: Situation, lexicon: Lexicon) -> tuple[MapObject, ...]:
     """What "which gate is nearest?", "where is the nearest crate to the gate?" ask for; empty for others."""
     low = [token.low for token in tokens if token.is_word]
-    at = next((at for at, word in enumerate(low) if word in _MOST), None)
+    at = next((at for at, word in enumerate(low) if _MOST.fullmatch(word)), None)
     if at is None:
         return ()
     kind = [word for word in low[1:at] if word not in _IDLE] if low[0] in ("which", "what") else []
-    most, rest = _MOST[low[at]], low[at + 1 :]
+    most, rest = "nearest" if low[at][0] in "nc" else "farthest", low[at + 1 :]
     words = [most, *rest] if not kind else [*kind, most, *rest] if rest else [most, *kind]
     found = picked(words, situation.objects, lexicon, situation.robot_pose)
     names = named_alone(tokens, situation.objects, lexicon)
     if found is None and len(names) > 1 and (pose := situation.robot_pose) is not None:
-        pick = min if most in ("nearest", "closest") else max
+        pick = min if most == "nearest" else max
         return (pick(names, key=lambda thing: distance_m(thing, pose)),)
     return found.things if found is not None else ()
 
 
-_MOST: Final = {
-    "nearest": "nearest", "closest": "closest", "nearer": "nearest", "closer": "closest",
-    "farthest": "farthest", "furthest": "furthest", "farther": "farthest", "further": "furthest",
-}  # fmt: skip
+_MOST: Final = re.compile(r"(near|clos|farth|furth)(?:est|er)")
 _IDLE: Final = frozenset({"is", "'s", "are", "the", "one", "of", "them"})
 
 
@@ -108,8 +106,10 @@ def look_asked_for(tokens: Sequence[Token], names: Sequence[Named], called: Cont
         names: What it names on the map.
         called: Names of robots, in small letters.
     """
-    last = max((at for at, token in enumerate(tokens[:-1]) if token.text in ".!?;"), default=-1)
-    low = [token.low for token in tokens[last + 1 :] if token.is_word and token.low not in called]
+    ends = [at for at, token in enumerate(tokens) if token.text in ".!?;"]
+    asked = next((at for at in ends if tokens[at].text == "?"), len(tokens))  # a sentence of several
+    first = max((at + 1 for at in ends if at + 1 < asked), default=0)
+    low = [token.low for token in tokens[first:asked] if token.is_word and token.low not in called]
     if len(names) == 1 and "or" in low[3:]:  # "is the gate open or closed?"
         low = low[: low.index("or", 3)]
     if low[0] in _ANY and len(names) == 1:  # "anything at the gate?"
@@ -152,12 +152,8 @@ def _is_about_failure(situation: Situation, lexicon: Lexicon) -> bool:
 
 def _kept(situation: Situation, lexicon: Lexicon) -> Answer | None:
     """What is remembered in the words of a question, all but those that only ask; the newest."""
-    asking = lexicon.classes["small"] | lexicon.classes["logic"] | lexicon.classes["prepositions"]
-    asking = (
-        asking
-        | lexicon.classes["being"]
-        | {"do", "does", "did", "whose", "when", "much", "many", "one", "ones"}
-    )
+    asking = {"do", "does", "did", "whose", "when", "much", "many", "one", "ones"}
+    asking = asking.union(*(lexicon.classes[kind] for kind in ("small", "logic", "prepositions", "being")))
     words = {
         stem(token.low) for token in tokenize(situation.message) if token.is_word and token.low not in asking
     }

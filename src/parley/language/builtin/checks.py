@@ -147,13 +147,8 @@ def _named_anew(builder: Ways, text: str) -> str:
 
 
 def _parted(word: str) -> list[str]:
-    ends = {
-        "it's": ["it", "is"],
-        "it’s": ["it", "is"],
-        "they're": ["they", "are"],
-        "they’re": ["they", "are"],
-    }
-    return ends.get(word.lower(), [word])
+    ends = {"it's": ["it", "is"], "they're": ["they", "are"]}
+    return ends.get(word.lower().replace("’", "'"), [word])
 
 
 def _each(builder: Ways, words: Sequence[str]) -> list[tuple[Value | None, str]] | Ask:

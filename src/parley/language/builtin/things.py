@@ -130,12 +130,8 @@ def _called(words: Sequence[str], objects: Sequence[MapObject], lexicon: Lexicon
         return stems([*name[:1], *inner, *name[1:][-1:]])
 
     for told in (stems, bare):
-        found = [
-            item
-            for item in objects
-            if any(told(name.split()) == told(said) for name in (item.description, *item.aliases))
-        ]
-        if found:
+        names = [(item, (item.description, *item.aliases)) for item in objects]
+        if found := [item for item, called in names if told(said) in [told(n.split()) for n in called]]:
             return found
     return []
 

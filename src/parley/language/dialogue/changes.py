@@ -51,24 +51,19 @@ _FRONT: Final = re.compile(
     r"(?:you |we )?(?:go(?:ing)? on|carry(?:ing)? on|mov(?:e|ing) on|continu(?:e|ing)|proceed(?:ing)?|"
     r"resum(?:e|ing)|leav(?:e|ing)|anything|everything))\b"
 )
-_INSTEAD: Final = re.compile(
-    r"\b(?:no|nope|not|instead|rather|scratch|forget|(?:i|we) (?:mean|meant)|make (?:it|that)|never ?mind|"
-    r"drop|cancel|leave|changed? my mind)\b"
-)
+_GIVEN_UP: Final = r"instead|rather|scratch|forget|never ?mind|drop|cancel|leave|changed? my mind"
+_INSTEAD: Final = re.compile(rf"\b(?:{_GIVEN_UP}|no|nope|not|(?:i|we) (?:mean|meant)|make (?:it|that))\b")
 """What takes back also what comes "first"; "actually" and "wait" do not."""
 _ADDING: Final = re.compile(
     r"\b(?:also|add|too|as well|and then|then|after (?:that|this|wards?)|afterwards|at the end|finally|"
     r"besides|plus|include|append|on top|later|when you are done|when done|next)\b"
 )
 _ALSO: Final = re.compile(r"\b(?:as well|too|also|in addition|on top|besides|include)\b")
-_FOR_GOOD: Final = re.compile(
-    r"\b(?:instead|rather|scratch|forget|never ?mind|drop|cancel|leave|changed? my mind|change of plan)\b"
-)
+_FOR_GOOD: Final = re.compile(rf"\b(?:{_GIVEN_UP}|change of plan)\b")
 """What takes back even beside "too"; "no, wait" only breaks in."""
 _ALL: Final = re.compile(
     r"\b(?:all|everything|forget (?:it|that|this)|scratch|cancel|drop (?:it|that)|never ?mind)\b"
 )
-
 _ALL_OF_IT: Final = re.compile(r"\b(?:all|everything)\b|^stop\b")
 
 

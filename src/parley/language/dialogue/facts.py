@@ -152,16 +152,17 @@ def moved_fact(
     if subject is None or {"not", "n't"} & {*low[subject:at]} or _names_its_subject(reading):
         return None
     owner = before.about.removeprefix("Where ").removesuffix(" is")
+    name, about = before.name, before.about
+    if low[subject] in ("he", "she") and (whose := re.match(r"(?:the )?(\w+) ?['’]s ", owner)):
+        owner = whose[1].capitalize()  # "she", after Kim's box, is Kim
+        name, about = f"{whose[1]}_location", f"Where {owner} is"
     be = "are" if low[subject] in ("they", "these", "those", "they're") else "is"
     start, end = tokens[place.start].start, tokens[place.end - 1].end
-    article = (
-        "the "
-        if low[place.start - 1] not in ("my", "your", "his", "her", "our", "a")
-        else f"{low[place.start - 1]} "
-    )
+    led = low[place.start - 1]
+    article = f"{led} " if led in ("my", "your", "his", "her", "our", "a") else "the "
     where = " ".join([_AT.get(low[at], low[at]), *(["to"] if low[at] == "next" else [])])
     text = f"{owner} {be} {where} {article}{situation.message[start:end]}"
-    return Told(before.name, text, before.about)
+    return Told(name, text, about)
 
 
 def _is_subject(low: Sequence[str], at: int) -> bool:
@@ -246,23 +247,14 @@ def forgotten(situation: Situation, bare: str) -> tuple[MemoryEntry, ...] | None
     found = _FORGET.fullmatch(bare)
     if found is None:
         return None
-    small = {
-        "is", "are", "was", "the", "a", "my", "i", "told", "you", "said", "about", "that", "location",
-        "place", "sits",
-    }  # fmt: skip
+    small = {*re.findall(r"\w+", "is are was the a my i told you said about that location place sits")}
     wanted = {stem(word.removesuffix("'s")) for word in re.findall(r"[\w']+", found["about"])} - small
-    hits = [
-        entry
-        for entry in situation.memory
-        if wanted
-        and wanted
-        <= {
-            stem(word)
-            for word in re.findall(
-                r"\w+", f"{entry.name} {entry.data} {entry.info}".lower().replace("_", " ")
-            )
-        }
-    ]
+
+    def words(entry: MemoryEntry) -> set[str]:
+        text = f"{entry.name} {entry.data} {entry.info}".lower().replace("_", " ")
+        return {stem(word) for word in re.findall(r"\w+", text)}
+
+    hits = [entry for entry in situation.memory if wanted and wanted <= words(entry)]
     if "forget where " in bare:  # and not what else is there
         hits = [one for one in hits if wanted <= {*map(stem, one.name.removesuffix("_location").split("_"))}]
     return tuple(hits)

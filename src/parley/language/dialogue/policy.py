@@ -245,10 +245,13 @@ _AGAIN: Final = re.compile(
 
 def _once_more(situation: Situation, bare: str) -> Decision | None:
     """For "do that again": what was ordered last, as it was understood then."""
-    again = re.search(
-        r"\b(?:again|once more|one more time|another time|repeat|same)\b", situation.message.lower()
-    )
-    if again is None or _AGAIN.fullmatch(bare) is None or situation.question or situation.queue:
+    words = r"\b(?:again|once more|one more time|another time|repeat|same)\b"
+    if (
+        re.search(words, situation.message.lower()) is None
+        or _AGAIN.fullmatch(bare) is None
+        or situation.question
+        or situation.queue
+    ):
         return None
     if not situation.dialogue.orders:
         return Answer("I have not done anything yet that I could do again.")
