@@ -14,8 +14,10 @@ from typing import TYPE_CHECKING, Any, Final, cast
 import pytest
 
 from parley.config import NetworkSettings
+from parley.messages.ros import String
+from parley.messages.topics import Topic
 from parley.ros_check import examine_ros
-from parley.transport.base import Server, Subscription, Transport
+from parley.transport.base import Endpoint, Server, Subscription, Transport
 from parley.transport.local import LocalTransport
 from parley.transport.rosbridge import RosbridgeServer, RosbridgeTransport
 from parley.transport.rosbridge.rosapi import NODES, NodesRequest
@@ -122,6 +124,7 @@ async def rosbridge() -> AsyncIterator[Network]:
         yield Network(cast(Transport, Bridged(here)), cast(Transport, Bridged(there)))
 
 
+MEETING: Final = Topic("contract/meeting", String, "std_msgs/msg/String")
 REAL_BRIDGE: Final = os.environ.get("PARLEY_TEST_ROSBRIDGE", "")
 """Address of a rosbridge_suite with rosapi, to try the suite against that, too: `ws://127.0.0.1:9090`.
 
@@ -131,14 +134,48 @@ It has to be in the ROS that is sourced, and in the domain that `ROS_DOMAIN_ID` 
 
 @asynccontextmanager
 async def rosbridge_of_ros() -> AsyncIterator[Network]:
-    """A client of a bridge, and a node of the ROS behind it."""
+    """A client of a bridge, and a node of the ROS behind it that the bridge has met.
+
+    Under Fast DDS that takes seconds; what is said to a node before is not heard there, bridge or not.
+    """
     from parley.transport.ros2 import Ros2Transport
 
     async with (
         RosbridgeTransport(REAL_BRIDGE, look_s=0.1) as here,
         Ros2Transport(node="contract_there", look_s=0.02) as there,
     ):
-        yield Network(cast(Transport, Bridged(here)), there, says_no=False)
+        met = asyncio.Event()
+        ear, voice = await there.subscribe(MEETING, lambda _: met.set()), here.publisher(MEETING)
+        async with asyncio.timeout(20.0):
+            while not met.is_set():
+                voice.publish(String())
+                await asyncio.sleep(0.1)
+        voice.close()
+        await ear.close()
+        yield Network(cast(Transport, Bridged(here)), cast(Transport, Met(there, here)), says_no=False)
+
+
+class Met:
+    """A node of ROS whose ends are open when a bridge tells of them."""
+
+    def __init__(self, transport: Ros2Transport, other: Transport) -> None:
+        self._transport, self._other = transport, other
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._transport, name)
+
+    async def subscribe(self, *args: Any, **options: Any) -> Subscription:
+        end = await self._transport.subscribe(*args, **options)
+        name = self._transport.node.resolve_topic_name(args[0].name)
+        told = Endpoint(name, args[0].ros_type, "subscription")
+        await until(lambda: told in self._other.endpoints())
+        await asyncio.sleep(0.3)  # who tells of it is another node than the bridge, and may know it earlier
+        return end
+
+    async def serve(self, *args: Any) -> Server:
+        end = await self._transport.serve(*args)
+        await until(lambda: any(one.name == end.endpoint.name for one in self._other.endpoints()))
+        return end
 
 
 class Matched:

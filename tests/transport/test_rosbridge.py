@@ -121,6 +121,15 @@ async def test_a_bridge_that_comes_back_is_told_of_all_ends_and_meanwhile_calls_
     assert latched == ["kept"]
 
 
+async def test_a_bridge_is_asked_to_keep_what_is_said_in_one_go_and_of_the_latched_what_counts() -> None:
+    async with scripted() as (bridge, transport):
+        for topic in (STOP, TALK, LATCHED):
+            transport.publisher(topic)
+        await until(lambda: sum(frame["op"] == "advertise" for frame in bridge.heard) == 3)
+    kept = {frame["topic"]: frame["queue_size"] for frame in bridge.heard if frame["op"] == "advertise"}
+    assert kept == {"/bridge/stop": 1000, "/bridge/talk": 100, "/bridge/latched": 1}
+
+
 async def test_a_stop_goes_before_all_else_that_waits() -> None:
     async with scripted() as (bridge, transport):
         stop, talk = transport.publisher(STOP), transport.publisher(TALK)

@@ -16,6 +16,9 @@ __all__ = ["End", "Holder", "RosbridgePublisher", "RosbridgeServerEnd", "Rosbrid
 
 M = TypeVar("M")
 
+AHEAD: Final = 100
+"""So many messages a bridge may be behind with at least, whatever the depth says: it is counted where they
+wait. Of one that keeps all, ten times as many: ROS drops what is more."""
 CALLS: Final = 100
 """So many calls of one service are answered at once; more are refused."""
 
@@ -77,13 +80,14 @@ class RosbridgePublisher(Generic[M]):
     def tell(self) -> None:
         """Let the bridge know of it; once more after each new connection."""
         qos = self._topic.qos
+        ahead = 0 if qos.latched else 10 * AHEAD if qos.keep_all else AHEAD
         self._transport.send(
             {
                 "op": "advertise",
                 "topic": self.endpoint.name,
                 "type": self._transport.spelt(self._topic.ros_type),
                 "latch": qos.latched,
-                "queue_size": qos.depth,
+                "queue_size": max(qos.depth, ahead),
             },
         )
         if self._last is not None:
