@@ -19,7 +19,7 @@ from parley.messages import ros_robot
 from parley.messages.ros import Time
 from parley.network import transport_of
 from parley.robots.ros_file import RosRobotFile
-from parley.robots.ros_senses import RosTopics, velocities_both
+from parley.robots.ros_senses import RosTopics, velocities_heard
 from parley.robots.ros_values import Frames
 from parley.transport.base import Endpoint, Transport, absolute
 
@@ -292,7 +292,7 @@ class _Look:
         if not self._listeners(self._topics.cmd_vel):
             mend = "Let the base, or twist_mux before it, listen there; or write its topic as `cmd_vel`."
             return Finding("velocities", "wrong", f"nobody listens on {at}", mend)
-        if velocities_both(self._topics, self._ends):
+        if len(velocities_heard(self._topics, self._ends)) > 1:
             text = f"on {at} some listen for Twist and some for TwistStamped, so that it gets none"
             mend = "Let all there take the same (twist_mux: `use_stamped`), or give the others another topic."
             return Finding("velocities", "wrong", text, mend)

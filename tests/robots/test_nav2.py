@@ -9,18 +9,29 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import AsyncExitStack, asynccontextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, Self, TypeVar
 
 import numpy as np
 import pytest
+import structlog
 from typer.testing import CliRunner
 
 from parley.cli import command_line
 from parley.clock import SimClock, WallClock
 from parley.config import NetworkSettings
-from parley.errors import ActionFailure, FailureCode, UnavailableError
+from parley.errors import ActionFailure, FailureCode, UnavailableError, UnsupportedError
 from parley.messages.actions import ActionWire, GoalState
-from parley.messages.ros_robot import Bool, Release, Twist, navigate_to_pose
+from parley.messages.ros import CompressedImage
+from parley.messages.ros_robot import (
+    ACTIVE,
+    Bool,
+    GetStateRequest,
+    Release,
+    Twist,
+    get_state,
+    navigate_to_pose,
+)
+from parley.messages.topics import Topic
 from parley.robots.base import NavigationControl, Velocity
 from parley.robots.check import blocked
 from parley.robots.link import Link
@@ -29,7 +40,7 @@ from parley.robots.nav2_errors import failure_of
 from parley.robots.nav2_simulated import SimulatedNav2
 from parley.robots.ros_senses import RosTopics
 from parley.sim.simulator import Simulator
-from parley.transport.base import Transport
+from parley.transport.base import Endpoint, Publisher, Transport
 from parley.transport.local import LocalTransport
 from parley.transport.rosbridge import RosbridgeServer, RosbridgeTransport
 from parley.transport.zenoh import ZenohTransport
@@ -38,6 +49,7 @@ from parley.world.geometry import Pose2D
 from tests.sim.worlds import two_rooms
 from tests.transport.backends import NEEDS_ROS, free_port, ros2_node, until
 
+M = TypeVar("M")
 ROOT = Path(__file__).parent.parent.parent
 TOPICS = RosTopics(emergency="e_stop", namespace="A")
 NOT_PAUSED = NavigationControl(lambda _: None, lambda: False)
@@ -129,7 +141,9 @@ class Stage:
 
 
 @asynccontextmanager
-async def stage(kind: str, release: Release = "jazzy", speed: float = 1.0) -> AsyncIterator[Stage]:
+async def stage(
+    kind: str, release: Release = "jazzy", speed: float = 1.0, *, said: Release | None = None
+) -> AsyncIterator[Stage]:
     """A robot of ours, and beyond a network what it drives, on a loop of its own."""
     peer, cable = Peer(release, speed), Cable(free_port())
     async with AsyncExitStack() as stack:
@@ -143,7 +157,7 @@ async def stage(kind: str, release: Release = "jazzy", speed: float = 1.0) -> As
             stack.push_async_callback(lambda: link.run(far.__aexit__(None, None, None)))
             await link.run(peer.begin(far))
             stack.push_async_callback(lambda: link.run(peer.end()))
-        robot = Nav2Robot("A", near, Nav2Setup(release=release, topics=TOPICS, radius_m=0.2))
+        robot = Nav2Robot("A", near, Nav2Setup(release=said or release, topics=TOPICS, radius_m=0.2))
         stack.callback(robot.close)
         await robot.open()
         robot.settle(robot.own_map, WallClock(), None)
@@ -255,12 +269,47 @@ async def test_a_stop_shuts_the_lock_zeroes_the_velocity_and_calls_the_goal_off_
         await watch.subscribe(action.status, lambda told: goals.extend(g.status for g in told.status_list))
         drive = asyncio.create_task(on.robot.navigate(ahead(on.robot, 2.0), NOT_PAUSED, timeout_s=20))
         await until(lambda: on.nav2.robot.velocity().linear_mps > 0.1 and locks[-1:] == [False])
+        ready = Endpoint("/A/cmd_vel", "geometry_msgs/msg/Twist", "publisher")
+        await until(lambda: ready in watch.endpoints())
+        assert not speeds, "the zero of a stop waits for no opening"
         on.robot.halt()
         await until(lambda: locks[-1] and speeds[-1:] == [0.0] and goals[-1:] == [GoalState.CANCELED])
         await until(lambda: on.nav2.robot.velocity().linear_mps < 0.02)
         assert not drive.done()  # a person may let it go on
         drive.cancel()
         await asyncio.gather(drive, return_exceptions=True)
+
+
+class WithoutVision(Hosted):
+    """A ROS to which the messages of a detector are not installed."""
+
+    def publisher(self, topic: Topic[M]) -> Publisher[M]:
+        if topic.ros_type.startswith("vision_msgs/"):
+            raise UnsupportedError(f"ROS does not know {topic.ros_type}")
+        return super().publisher(topic)
+
+
+async def test_a_simulated_robot_needs_no_messages_of_a_detector_and_its_nodes_say_they_are_active() -> None:
+    peer = Peer("jazzy", QUICK)
+    peer.topics = replace(TOPICS, detections="detections")
+    with structlog.testing.capture_logs() as logs:
+        async with WithoutVision(peer) as transport:
+            for node in ("A/bt_navigator", "A/amcl"):
+                answer = await transport.call(get_state(node), GetStateRequest(), timeout_s=5.0)
+                assert answer.current_state == ACTIVE
+            pictures: list[CompressedImage] = []
+            await transport.subscribe(peer.topics.topic(TOPICS.camera, CompressedImage), pictures.append)
+            await until(lambda: pictures)
+    assert [one["why"] for one in logs if "detector" in one["event"]] == [
+        "ROS does not know vision_msgs/msg/Detection2DArray"
+    ]
+
+
+async def test_where_the_release_is_another_one_it_says_that_it_is_set_up_wrongly() -> None:
+    async with stage("rosbridge", "humble", QUICK, said="jazzy") as on:
+        with pytest.raises(ActionFailure, match="set up wrongly") as failed:
+            await on.robot.navigate(ahead(on.robot, 0.8), NOT_PAUSED, timeout_s=20)
+    assert "error_code" in failed.value.details["why"]
 
 
 @pytest.mark.parametrize("kind", ["zenoh", "rosbridge"])

@@ -15,6 +15,7 @@ from parley.messages.topics import Service
 
 __all__ = [
     "ACTIVE",
+    "LOCALISER",
     "NAVIGATOR",
     "Bool",
     "BoundingBox2D",
@@ -92,6 +93,8 @@ class GetStateResponse:
 
 
 NAVIGATOR: Final = "bt_navigator"
+LOCALISER: Final = "amcl"
+"""The node of Nav2 that knows where the robot is."""
 """The node of Nav2 that takes goals."""
 ACTIVE: Final = LifecycleState(3, "active")
 """Of a node that does its work."""

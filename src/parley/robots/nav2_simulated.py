@@ -12,8 +12,10 @@ from collections.abc import AsyncIterator
 from contextlib import AbstractAsyncContextManager, AsyncExitStack, asynccontextmanager
 from typing import Any, Final, Self
 
+import structlog
+
 from parley.clock import WallClock
-from parley.errors import ActionFailure
+from parley.errors import ActionFailure, UnsupportedError
 from parley.messages import ros, ros_robot
 from parley.messages.actions import GoalState
 from parley.messages.ros_robot import Release, navigate_to_pose
@@ -36,6 +38,8 @@ SCAN_EVERY: Final = 4
 PICTURE_EVERY: Final = 10
 LATCH_EVERY: Final = 10
 DRIVE_S: Final = 600.0
+
+log = structlog.get_logger(__name__)
 
 
 class SimulatedNav2:
@@ -75,9 +79,14 @@ class SimulatedNav2:
         names, transport, stack = self._names, self._transport, AsyncExitStack()
         takes = ros_robot.TwistStamped if names.stamped else ros_robot.Twist
         self._stack = await stack.__aenter__()
-        self._out = {
-            name: transport.publisher(names.topic(name, kind, qos)) for name, kind, qos in names.told()
-        }
+        self._out = {}
+        for name, kind, qos in names.told():
+            try:
+                self._out[name] = transport.publisher(names.topic(name, kind, qos))
+            except UnsupportedError as error:  # the messages of a detector are not part of every ROS
+                if name != names.detections:
+                    raise
+                log.warning("it does not tell what its detector sees", robot=self.robot.name, why=str(error))
         self._out[names.map].publish(grid_of(self._map, names.map_frame, self._clock.unix_ms()))
         for topic, handler in (
             (names.topic(names.cmd_vel, takes), self._on_velocity),
@@ -111,13 +120,16 @@ class SimulatedNav2:
             return ros_robot.GetStateResponse(self.lifecycle)
 
         async with ActionServer(self._transport, self._action, self._carry_out, self._clock):
-            told = await self._transport.serve(
-                ros_robot.get_state(self._names.name(ros_robot.NAVIGATOR)), state
-            )
+            nodes = ros_robot.NAVIGATOR, ros_robot.LOCALISER
+            told = [
+                await self._transport.serve(ros_robot.get_state(self._names.name(node)), state)
+                for node in nodes
+            ]
             try:
                 yield
             finally:
-                await told.close()
+                for end in told:
+                    await end.close()
 
     # -- the drive ---------------------------------------------------------------------------------------
 
@@ -221,7 +233,7 @@ class SimulatedNav2:
         else:
             told = ros.CompressedImage(top, "jpeg", await asyncio.to_thread(_jpeg, picture.data))
         self._out[names.camera].publish(told)
-        if names.detections:
+        if names.detections in self._out:
             place = ros.Header(top.stamp, names.map_frame)
             self._out[names.detections].publish(detected(picture.detections or (), place))
 

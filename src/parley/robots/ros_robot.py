@@ -29,7 +29,7 @@ from parley.messages.status import Trouble
 from parley.robots.base import CameraImage, DriveLimits, LaserScan, NavigationControl, Velocity
 from parley.robots.link import Link
 from parley.robots.own import RobotBase
-from parley.robots.ros_senses import SILENT, RosTopics, Senses, velocities_both, velocities_taken
+from parley.robots.ros_senses import SILENT, RosTopics, Senses, velocities_heard, velocities_taken
 from parley.robots.ros_values import header, stamped
 from parley.sentences import sentence
 from parley.transport.base import Outcome, Publisher, SentGoal, Transport
@@ -54,6 +54,7 @@ _LONG_S: Final = 3600.0
 MISSET: Final = "all that listen there must take the same, Twist or TwistStamped; see parley doctor --robot"
 
 PRESSED: Final = sentence("The emergency stop on me is pressed.")
+UNLIKE: Final = sentence("My base is set up wrongly.")
 LATE: Final = sentence("I did not get there in time.")
 NO_WAY: Final = sentence("I know no way to there.")
 
@@ -192,29 +193,38 @@ class RosRobot(RobotBase):
         """On the link: hand a velocity to the base, of the type that it takes."""
         if self._transport is None:
             return
-        kind = velocities_taken(self._names, self._transport.endpoints())
+        self._open_velocities(self._transport)
+        if self._cmd_vel is None:
+            return
+        twist = Twist(Vector3(velocity.linear_mps), Vector3(z=velocity.angular_radps))
+        stamped = self._cmd_vel[0] is TwistStamped
+        top = header(self._names.base_frame, self._clock.unix_ms())
+        self._cmd_vel[1].publish(TwistStamped(top, twist) if stamped else twist)
+
+    def _open_velocities(self, transport: Transport) -> None:
+        kind = velocities_taken(self._names, transport.endpoints())
         if self._cmd_vel is None or self._cmd_vel[0] is not kind:
             if self._cmd_vel is not None:
                 self._cmd_vel[1].close()
             self._cmd_vel = None
             try:
                 topic = self._names.topic(self._names.cmd_vel, kind)
-                self._cmd_vel = kind, self._transport.publisher(topic)
+                self._cmd_vel = kind, transport.publisher(topic)
             except TypeMismatchError as error:
                 self._refuse(str(error))
                 return
             self._refused = ""
-        twist = Twist(Vector3(velocity.linear_mps), Vector3(z=velocity.angular_radps))
-        stamped = kind is TwistStamped
-        top = header(self._names.base_frame, self._clock.unix_ms())
-        self._cmd_vel[1].publish(TwistStamped(top, twist) if stamped else twist)
 
     def _look(self) -> None:
         """On the link: whether who listens for velocities agrees on their type."""
-        if self._transport is not None and velocities_both(self._names, self._transport.endpoints()):
+        if self._transport is not None and self._velocities_heard(self._transport) > 1:
             self._refuse(f"both kinds are listened for on {self._names.name(self._names.cmd_vel)}")
         else:
             self._refused = ""
+
+    def _velocities_heard(self, transport: Transport) -> int:
+        """For how many kinds of velocities somebody listens."""
+        return len(velocities_heard(self._names, transport.endpoints()))
 
     def _refuse(self, why: str) -> None:
         """Say once why the base gets no velocities."""
@@ -267,7 +277,7 @@ class RosRobot(RobotBase):
         await self._senses.listen(transport)
         await self._goals.open(transport)
         self._opened_s = self._clock.wall_s()
-        self._keeping = asyncio.create_task(self._keep(), name=f"hold of {self.name}")
+        self._keeping = asyncio.create_task(self._keep(transport), name=f"hold of {self.name}")
         try:
             async with asyncio.timeout(READY_S):
                 await self._senses.ready.wait()
@@ -304,10 +314,12 @@ class RosRobot(RobotBase):
         silent = self._clock.wall_s() - self._beat_s > LOOP_S
         self._hold.publish(Bool(self._halted or self._paused or self._unwatched or silent))
 
-    async def _keep(self) -> None:
+    async def _keep(self, transport: Transport) -> None:
         """On the link: say again and again whether it must stand, and call off what nobody watches."""
         while True:
             self._tell_hold()
+            if self._cmd_vel is None and self._velocities_heard(transport) == 1:
+                self._open_velocities(transport)  # so that the first one, a stop's, is heard at once
             if self._unwatched:
                 asked = self._sending is None or self._sending.done()
                 with suppress(TransportError):  # it stands meanwhile, and this is tried again
@@ -395,7 +407,8 @@ class RosRobot(RobotBase):
             raise ActionFailure(FailureCode.UNREACHABLE, NO_WAY) from error
         except TransportError as error:
             self._unwatched = True
-            raise ActionFailure(FailureCode.HARDWARE, SILENT, {"why": str(error)}) from error
+            says = UNLIKE if isinstance(error, TypeMismatchError) else SILENT
+            raise ActionFailure(FailureCode.HARDWARE, says, {"why": str(error)}) from error
 
     async def _there(self, work: Coroutine[Any, Any, T]) -> T:
         if self._link is None:

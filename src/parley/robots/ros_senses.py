@@ -26,7 +26,7 @@ from parley.world.geometry import Pose2D
 if TYPE_CHECKING:
     from parley.world.occupancy import OccupancyMap
 
-__all__ = ["SILENT", "RosTopics", "Senses", "velocities_both", "velocities_taken"]
+__all__ = ["SILENT", "RosTopics", "Senses", "velocities_heard", "velocities_taken"]
 
 PICTURE_S: Final = 5.0
 """Within this a camera gives a picture."""
@@ -133,17 +133,13 @@ def velocities_taken(topics: RosTopics, ends: Iterable[Endpoint]) -> type[Any]:
     """Of which type velocities must be so that whoever drives the base takes them."""
     stamped = topics.stamped
     if stamped is None:
-        kinds = _velocities(topics, ends)
+        kinds = velocities_heard(topics, ends)
         stamped = _TYPES[ros_robot.TwistStamped] in kinds and _TYPES[ros_robot.Twist] not in kinds
     return ros_robot.TwistStamped if stamped else ros_robot.Twist
 
 
-def velocities_both(topics: RosTopics, ends: Iterable[Endpoint]) -> bool:
-    """Whether there are listeners for both kinds of velocities: no topic carries two."""
-    return _velocities(topics, ends) >= {_TYPES[ros_robot.Twist], _TYPES[ros_robot.TwistStamped]}
-
-
-def _velocities(topics: RosTopics, ends: Iterable[Endpoint]) -> set[str]:
+def velocities_heard(topics: RosTopics, ends: Iterable[Endpoint]) -> set[str]:
+    """For which types of velocities somebody listens; no topic carries two."""
     there = absolute(topics.name(topics.cmd_vel))
     return {end.ros_type for end in ends if end.role == "subscription" and end.name == there}
 
