@@ -265,3 +265,9 @@ async def _every(seconds: float, do: Callable[[], None]) -> None:
     while True:
         do()
         await asyncio.sleep(seconds)
+
+
+def test_a_bridge_that_does_not_answer_is_told_with_how_to_start_it() -> None:
+    (found,) = examine_network(NetworkSettings(rosbridge=f"ws://127.0.0.1:{free_port()}"))
+    assert (found.state, "send_action_goals_in_new_thread:=true" in found.remedy) == ("wrong", True)
+    assert "tls" not in found.remedy

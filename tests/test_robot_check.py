@@ -16,7 +16,7 @@ from parley.clock import SimClock, WallClock
 from parley.config import NetworkSettings
 from parley.findings import Finding
 from parley.messages import ros_robot
-from parley.messages.topics import QoS
+from parley.messages.topics import QoS, Service
 from parley.robot_check import examine_robot, examine_time
 from parley.robots.nav2 import Nav2Robot, Nav2Setup
 from parley.robots.nav2_simulated import SimulatedNav2
@@ -24,7 +24,8 @@ from parley.robots.ros_file import RosRobotFile
 from parley.robots.ros_senses import RosTopics
 from parley.sim.simulator import Simulator
 from parley.transport.base import Endpoint, Transport
-from parley.transport.rosbridge import RosbridgeServer, RosbridgeTransport
+from parley.transport.rosbridge import RosbridgeServer, RosbridgeTransport, rosapi
+from parley.transport.rosbridge.rosapi import GET_PARAM, GetParamRequest, GetParamResponse
 from parley.transport.zenoh import ZenohTransport
 from parley.transport.zenoh.keys import Node
 from parley.transport.zenoh.session import config
@@ -150,6 +151,34 @@ async def test_a_base_of_which_nobody_knows_what_it_takes_is_told() -> None:
     assert seen["velocities"].state == "wrong"
     assert "some listen for Twist and some for TwistStamped" in seen["velocities"].text
     assert "use_stamped" in seen["velocities"].remedy
+
+
+@pytest.mark.parametrize("at_once", [False, True])
+async def test_a_bridge_that_does_one_thing_after_the_other_is_told(*, at_once: bool) -> None:
+    async def values(request: GetParamRequest) -> GetParamResponse:
+        goals = request.name == "/rosbridge_websocket:send_action_goals_in_new_thread"
+        return GetParamResponse("true" if at_once or not goals else "false")
+
+    async with robot("rosbridge") as (_, far, file, network):
+        own = Service("/rosbridge_websocket/get_parameters", GetParamRequest, GetParamResponse, "a/srv/B")
+        await far.serve(own, values)
+        await far.serve(GET_PARAM, values)
+        seen = await found(file, network)
+    if at_once:
+        assert "bridge" not in seen
+    else:
+        assert seen["bridge"].state == "wrong"
+        assert "send_action_goals_in_new_thread:=true" in seen["bridge"].remedy
+
+
+async def test_of_a_bridge_that_does_not_tell_who_is_there_nothing_is_said_of_who_listens(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    async with robot("rosbridge") as (_, _, file, network):
+        monkeypatch.setattr("parley.transport.rosbridge.graph.TOPICS", replace(rosapi.TOPICS, name="/none"))
+        seen = await found(file, network)
+    assert (seen["discovery"].state, seen["odometry"].state) == ("missing", "ok")
+    assert not {"Nav2", "velocities", "lock"} & set(seen)
 
 
 async def test_a_robot_out_of_reach_is_told_with_how_to_reach_it() -> None:

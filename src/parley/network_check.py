@@ -32,6 +32,11 @@ GROUP: Final = "224.0.0.224"
 """Where Zenoh looks for others."""
 _SAME: Final = "Look at domain, interface and tls: all parts need the same."
 LOOPBACK: Final = ("lo", "lo0")
+START_BRIDGE: Final = (
+    "Start it on the robot: ros2 launch rosbridge_server rosbridge_websocket_launch.xml "
+    "call_services_in_new_thread:=true send_action_goals_in_new_thread:=true; or mend its address."
+)
+_SAME_BRIDGE: Final = "Look whether all parts name a bridge of one ROS, and whether rosapi runs beside it."
 _NO_INTERFACE: Final = "network.interface"  # as it begins that this machine is not on it
 _ROBOTS: Final = "parley engine"
 _PLANS: Final = "parley node agents"
@@ -63,7 +68,8 @@ def examine_network(network: NetworkSettings | None) -> Iterable[Finding]:
     try:
         yield from asyncio.run(_listen(transport, network))
     except ParleyError as error:
-        mend = "See above." if network.ros2 is not None or _NO_INTERFACE in str(error) else NOT_OURS
+        above = network.ros2 is not None or _NO_INTERFACE in str(error)
+        mend = "See above." if above else START_BRIDGE if network.rosbridge is not None else NOT_OURS
         yield Finding("network", "wrong", str(error), mend)
 
 
@@ -163,15 +169,14 @@ async def _listen(transport: Transport, network: NetworkSettings) -> list[Findin
         others = [end for end in transport.endpoints() if end.elsewhere]
     plans = any(end.name == topics.RULES.name and end.role == "server" for end in others)
     pages = sum(end.name == topics.ATTENDANCE.name and end.role == "publisher" for end in others)
+    same = _SAME_ROS if network.ros2 else _SAME_BRIDGE if network.rosbridge else _SAME
     if not others:
         text = f"nobody was there in {LISTENS_S:g} s"
-        return [Finding("network", "missing", text, _SAME_ROS if network.ros2 else _SAME)]
+        return [Finding("network", "missing", text, same)]
     robots = ", ".join(sorted(apart_ms)) or "none"
     told = f"robots: {robots}; who plans: {'there' if plans else 'not there'}; pages: {pages}"
     absent = [command for command, there in ((_ROBOTS, apart_ms), (_PLANS, plans)) if not there]
-    mend = (
-        f"Start with the same settings: {' and '.join(absent)}; if that runs, {_SAME[0].lower()}{_SAME[1:]}"
-    )
+    mend = f"Start with the same settings: {' and '.join(absent)}; if that runs, {same[0].lower()}{same[1:]}"
     found = [Finding("network", "missing" if absent else "ok", told, mend if absent else "")]
     for robot, difference_ms in sorted(apart_ms.items()):
         if abs(difference_ms) > APART_MS:

@@ -18,6 +18,7 @@ from parley.findings import Finding
 from parley.messages import ros_robot
 from parley.messages.ros import Time
 from parley.network import transport_of
+from parley.network_check import START_BRIDGE
 from parley.robots.ros_file import RosRobotFile
 from parley.robots.ros_senses import RosTopics, velocities_heard
 from parley.robots.ros_values import Frames
@@ -34,9 +35,9 @@ APART_S: Final = 1.0
 _LONG_AGO_S: Final = 1e9
 """No clock of the wall shows so few seconds since 1970: it is a simulated one."""
 _NETWORK: Final = "Look at `network` of the settings (--config): what is said of it above has to be ok first."
-_BRIDGE: Final = (
-    "Start it on the robot: ros2 launch rosbridge_server rosbridge_websocket_launch.xml; or mend `address`."
-)
+_BRIDGE: Final = "/rosbridge_websocket"
+"""The node of the bridge, as its launch file calls it."""
+_AT_ONCE: Final = "call_services_in_new_thread", "send_action_goals_in_new_thread"
 _SILENT: Final = (
     "Somebody would tell it there, and nothing comes: look whether it does (ros2 topic hz), and into the log "
     "of rosbridge, which needs the packages with the robot's messages."
@@ -60,7 +61,7 @@ def examine_robot(file: RosRobotFile, name: str, network: NetworkSettings | None
         yield Finding("robot", "missing", f"{missing.what} is not installed.", missing.remedy)
     except (TransportError, OSError) as error:
         yield Finding(
-            "robot", "wrong", f"{name} is out of reach: {error}", _BRIDGE if file.address else _NETWORK
+            "robot", "wrong", f"{name} is out of reach: {error}", START_BRIDGE if file.address else _NETWORK
         )
 
 
@@ -107,11 +108,16 @@ class _Look:
                         self._news.clear()
                         await self._news.wait()
             stop()
-            navigation = await self._navigation(transport)
-        seen = self._discovery()
-        return [seen] if seen.state == "missing" and not self._heard else [
+            seen = self._discovery()
+            listeners = [] if seen.state == "missing" else [
+                *await self._bridge(transport), *await self._navigation(transport),
+                self._velocities(), self._lock(),
+            ]  # fmt: skip
+        if seen.state == "missing" and not self._heard:
+            return [seen]
+        return [
             seen, self._odometry(), self._place(), *self._clocks(), *self._map(), *self._senses(),
-            *navigation, self._velocities(), self._lock(), *self._button(),
+            *listeners, *self._button(),
         ]  # fmt: skip
 
     def _look(self, transport: Transport) -> None:
@@ -165,7 +171,10 @@ class _Look:
                 "discovery", "ok", f"{names} topics and services of {self._name} and others are seen"
             )
         if self._file.address:
-            text = "the bridge answers, and does not tell who is there: its rosapi does not run"
+            text = (
+                "the bridge answers, and does not tell who is there, nor who takes goals and velocities: its "
+                "rosapi does not run"
+            )
             return Finding(
                 "discovery", "missing", text, "Start the launch file of rosbridge, which starts both."
             )
@@ -240,6 +249,22 @@ class _Look:
             mend = self._told_elsewhere(kinds[name], setting, at)
             mend = f'{mend} If it has none: {setting}: ""'
             yield Finding(setting, "missing", f"nobody tells it on {at}", mend)
+
+    async def _bridge(self, transport: Transport) -> list[Finding]:
+        """Whether a bridge does several things at once; only a robot's own, and only one of ROS 2 says so."""
+        seen = any(end.name == f"{_BRIDGE}/get_parameters" and end.role == "server" for end in self._ends)
+        if not seen or not self._file.address:
+            return []
+        from parley.transport.rosbridge.rosapi import GET_PARAM, GetParamRequest
+
+        off: list[str] = []
+        for option in _AT_ONCE:
+            with suppress(TransportError):
+                asked = GetParamRequest(f"{_BRIDGE}:{option}")
+                if (await transport.call(GET_PARAM, asked, timeout_s=ASKS_S)).value == "false":
+                    off.append(option)
+        text = f"without {' and '.join(off)} a call or drive keeps all else back, and the lock shuts"
+        return [Finding("bridge", "wrong", text, START_BRIDGE)] if off else []
 
     @property
     def _action(self) -> str:

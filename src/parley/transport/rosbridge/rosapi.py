@@ -8,9 +8,10 @@ from typing import Final
 from parley.messages.topics import Service
 
 __all__ = [
-    "ACTION_SERVERS", "NODES", "NODE_DETAILS", "SERVICE_TYPE", "TOPICS", "ActionServersRequest",
-    "ActionServersResponse", "NodeDetailsRequest", "NodeDetailsResponse", "NodesRequest", "NodesResponse",
-    "ServiceTypeRequest", "ServiceTypeResponse", "TopicsRequest", "TopicsResponse",
+    "ACTION_SERVERS", "GET_PARAM", "NODES", "NODE_DETAILS", "SERVICE_TYPE", "TOPICS", "ActionServersRequest",
+    "ActionServersResponse", "GetParamRequest", "GetParamResponse", "NodeDetailsRequest",
+    "NodeDetailsResponse", "NodesRequest", "NodesResponse", "ServiceTypeRequest", "ServiceTypeResponse",
+    "TopicsRequest", "TopicsResponse",
 ]  # fmt: skip
 
 
@@ -81,6 +82,22 @@ class ActionServersResponse:
     action_servers: tuple[str, ...] = ()
 
 
+@dataclass(frozen=True, slots=True)
+class GetParamRequest:
+    """rosapi_msgs/srv/GetParam, request: `node:parameter`."""
+
+    name: str = ""
+    default_value: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class GetParamResponse:
+    """rosapi_msgs/srv/GetParam, response: as JSON."""
+
+    value: str = ""
+
+
+GET_PARAM: Final = Service("/rosapi/get_param", GetParamRequest, GetParamResponse, "rosapi_msgs/srv/GetParam")
 TOPICS: Final = Service("/rosapi/topics", TopicsRequest, TopicsResponse, "rosapi_msgs/srv/Topics")
 NODES: Final = Service("/rosapi/nodes", NodesRequest, NodesResponse, "rosapi_msgs/srv/Nodes")
 NODE_DETAILS: Final = Service(
