@@ -215,6 +215,47 @@ async def test_who_calls_the_mission_off_drops_all_its_parts_and_nothing_else() 
         assert open_yet == {"Go to “charging dock”"}
 
 
+async def test_one_part_is_dropped_the_rest_goes_on_and_how_far_it_is_is_told_of_all() -> None:
+    async with hall() as home:
+        await told(home, "Check all three areas, split between you", *ROBOTS)
+        far = await home.say("have all three areas been checked by now?", "Spot")
+        assert "TIAGo still has to do: Go to “Area A”" in far.message
+        dropped = await home.say("Cancel TIAGo's part only, the rest stays as it is.", "Spot")
+        assert dropped.message == "TIAGo gives up what is left of its plan."
+        assert dropped.targets == ("Spot", "TIAGo")
+        await home.observer.until(
+            lambda: any("has ended. " in said.message for said in home.observer.said),
+            timeout_s=PATIENCE_S,
+        )
+        assert [state.state for state in home.observer.plans["Leo"].steps][-1] == "finished"
+        far = await home.say("has area A been checked?", "Leo")
+        assert far.message.startswith("TIAGo left out: Go to “Area A”")
+        assert (await home.say("cancel Leo's part", "Spot")).message == "Leo has nothing left to do."
+
+
+async def test_some_stay_whoever_they_are_and_only_the_others_go() -> None:
+    async with hall() as home:
+        await home.say("One of you stay here, the others go to the dock", "Spot")
+        assert sorted(goals(home).values()) == [[], ["charging dock"], ["charging dock"]]
+        for robot in ROBOTS:
+            await home.say("cancel everything", robot)
+        await home.say("two of you stay put, the third one goes to the pump", "TIAGo")
+        assert goals(home) == {"Spot": ["pump"], "TIAGo": [], "Leo": []}
+
+
+async def test_where_one_robot_shall_not_go_is_asked_as_its_rule_whoever_hears_it() -> None:
+    async with hall() as home:
+        home.observer.say("Don't send Leo anywhere near area C", "Spot", also=("TIAGo", "Leo"))
+        await home.observer.until(
+            lambda: any(
+                said.type == "request" and said.targets == ("Leo",) and "Stays out of" in said.message
+                for said in home.observer.said
+            ),
+            timeout_s=PATIENCE_S,
+        )
+        assert not [said for said in home.observer.said if said.targets != ("Leo",)]
+
+
 async def test_robots_are_counted_left_out_by_name_and_never_given_two_parts_at_once() -> None:
     async with hall() as home:
         await home.say("two of you go to the loading gate, the other one waits at the dock", "Spot")

@@ -122,3 +122,35 @@ def test_after_a_restart_nothing_is_claimed_until_it_is_seen_again() -> None:
     assert not again.closed
     again.plan("Ada", *ended("Ada", ["a box"]), state="idle")
     assert again.closed == ["All of “see all” is done."]
+
+
+def test_how_far_it_is_is_told_of_what_was_asked() -> None:
+    told = Follower()
+    told.plan("Ada", step("Ada", "a door", "finished"), step("Ada", "the red box", "running"))
+    told.plan("Kim", *ended("Kim", ["the blue box"]), state="idle")
+    assert str(told.book.progress("the door")) == "Ada has done: a door."
+    assert (
+        str(told.book.progress("both boxes"))
+        == "Ada still has to do: the red box. Kim has done: the blue box."
+    )
+    assert str(told.book.progress()).startswith("Not all of “see all” is done yet. Ada has done: a door.")
+    assert told.book.progress("the gate") is None
+    told.plan("Ada", step("Ada", "a door", "finished"), step("Ada", "the red box", "skipped"), state="idle")
+    assert str(told.book.progress("both boxes")) == "Ada left out: the red box. Kim has done: the blue box."
+    assert str(told.book.progress("everything")).startswith("“see all” has ended. Ada has done: a door.")
+    assert told.book.progress("everything", ended=False) is None  # somebody is at something else
+
+
+def test_of_what_nobody_followed_nothing_is_claimed() -> None:
+    told = Follower()
+    again = Follower()
+    again.book.restore(told.book.shown)
+    assert "What has become of the part of Kim is not known." in str(again.book.progress())
+
+
+def test_of_a_robot_only_the_part_is_found_that_goes_on() -> None:
+    told = Follower()
+    told.plan("Kim", *ended("Kim", ["a desk"]), state="idle")
+    assert told.book.going("Kim") is None
+    assert (found := told.book.going("Ada")) is not None
+    assert found.order == "Ada"

@@ -84,6 +84,23 @@ def test_sentences_of_the_data_are_read_as_it_says(kind: str, say: str) -> None:
         ("whoever has the most battery should check the gate", [Part("one", "check the gate", fullest=True)]),
         ("Everybody back!", [Part("all", "", home=True)]),
         ("each of you check a different box", [Part("all", "check every box")]),
+        (
+            "Ada and Kim, check the gate and the desk respectively",
+            [Part("named", "check the gate", "Ada"), Part("named", "check the desk", "Kim")],
+        ),
+        (
+            "Kim, wait until Ada is back and then go to the gate",
+            [Part("named", "go to the gate", "Kim", after=True, awaits="Ada")],
+        ),
+        (
+            "Kim, as soon as Ada gets there, go to the gate",
+            [Part("named", "go to the gate", "Kim", after=True, awaits="Ada")],
+        ),
+        ("check the gate with two robots", [Part("some", "check the gate", count=2)]),
+        (
+            "one of you stay here, the others go to the dock",
+            [Part("one", "", stays=True), Part("rest", "go to the dock")],
+        ),
     ],
 )
 def test_who_does_what_is_told_apart_from_the_work(say: str, parts: list[Part]) -> None:
@@ -107,6 +124,50 @@ def test_what_is_asked_about_robots_each_of_them_is_asked(say: str, robot: str, 
     wish = team_wish(say, ROBOTS)
     assert wish is not None
     assert (wish.kind, wish.robot, wish.about) == ("about", robot, asked)
+
+
+@pytest.mark.parametrize(
+    ("say", "about", "otherwise"),
+    [
+        ("have all three boxes been checked by now?", "all three boxes", ""),
+        ("did any of you check the gate?", "the gate", "did you check the gate?"),
+        ("which boxes are left?", "", "what are you doing?"),
+    ],
+)
+def test_whether_something_is_done_is_asked_of_the_work_and_else_of_the_robots(
+    say: str, about: str, otherwise: str
+) -> None:
+    wish = team_wish(say, ROBOTS)
+    assert wish is not None
+    assert (wish.kind, wish.about, wish.otherwise.about if wish.otherwise else "") == (
+        "progress",
+        about,
+        otherwise,
+    )
+
+
+def test_where_robots_shall_not_go_is_told_to_each_of_them() -> None:
+    wish = team_wish("Ada and Kim must stay away from the gate", ROBOTS)
+    assert wish is not None
+    assert [(part.robot, part.order) for part in wish.parts] == [
+        ("Ada", "you must not go into the gate"),
+        ("Kim", "you must not go into the gate"),
+    ]
+    wish = team_wish("don't send Kim anywhere near the gate", ROBOTS)
+    assert wish is not None
+    assert [part.order for part in wish.parts] == ["you must not drive near the gate"]
+
+
+def test_what_has_to_be_judged_is_offered_without_it() -> None:
+    wish = team_wish("Ada checks the box, and once that's clear Kim goes to the gate", ROBOTS)
+    assert wish is not None
+    assert (wish.kind, wish.about) == ("judged", "Ada checks the box, then Kim goes to the gate")
+
+
+def test_others_are_all_but_the_one_that_is_to_tell_them() -> None:
+    wish = team_wish("tell the others to go to the gate", ROBOTS, "Ada")
+    assert wish is not None
+    assert [*wish.parts] == [Part("rest", "go to the gate", without=("Ada",))]
 
 
 @pytest.mark.parametrize(

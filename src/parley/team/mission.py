@@ -6,10 +6,12 @@ of a part is kept, as a plan forgets its steps when the next begins.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
+from parley.language.builtin.lexicon import lemmas
 from parley.messages.status import PlanProposal, PlanStep, PlanUpdate
 from parley.messages.team import OVER, WAITS_FOR, MissionInfo, MissionPart, PartState
 from parley.sentences import Sentence, listed, sentence, together
@@ -18,7 +20,13 @@ __all__ = ["KEPT", "MissionBook", "Part"]
 
 KEPT: Final = 8
 """So many missions that are over are still told of."""
+ENDED: Final = "“{words}” has ended."
 _ENDED: Final = frozenset({"finished", "skipped", "stopped"})
+_ALL_OF_IT: Final = {
+    *("all", "every", "each", "both", "everything", "of", "the", "your", "our", "it", "that", "this", "them"),
+    *("two", "three", "four", "five", "six", "work", "job", "mission", "round", "place"),
+}
+"""Words that tell nothing of a mission from the rest of it."""
 
 
 @dataclass(slots=True)
@@ -80,6 +88,20 @@ class Part:
             lines = self.info.lines
         state: PartState = "done" if self.seen and not left else "given" if self.given_to else "undone"
         self.set(state, **{**told, "left": () if state == "done" else lines, "label": "", "proposal": ""})
+
+    @property
+    def far(self) -> tuple[list[str], list[str]]:
+        """What of it is done, and what is not, as people read it."""
+        done = [_said(step) for step in self.shown if step.state == "finished"]
+        if self.info.state in OVER:
+            return done if self.seen or self.info.state != "done" else [*self.info.lines], [*self.info.left]
+        left = [_said(step) for step in self.shown if step.state not in _ENDED]
+        return done, left if self.seen else [*self.info.lines]
+
+    @property
+    def shown(self) -> list[PlanStep]:
+        """Its steps that people read of."""
+        return [step for step in self.seen.values() if not step.for_next and step.action.name != WAITS_FOR]
 
 
 @dataclass(slots=True)
@@ -145,6 +167,37 @@ class MissionBook:
             if any(part.robot == robot for part in going):
                 return [part for part in going if part.robot != robot]
         return []
+
+    def progress(self, what: str = "", *, ended: bool = True) -> Sentence | None:
+        """How far the newest mission is that has to do with `what`; None: there is none.
+
+        Args:
+            what: Something, or several of a kind, in a person's words; empty: all of it.
+            ended: Whether "all" may mean one that has ended, as nobody is at anything else.
+        """
+        named = [{word, *lemmas(word)} for word in _words(what) - _ALL_OF_IT]
+        for mission in reversed(self._missions.values()):
+            told = [(part.info, *part.far) for part in mission.parts]
+            every = [line for _, done, left in told for line in (*done, *left)]
+            about = [line for line in every if all(forms & _words(line) for forms in named)]
+            if about and (named or ended or not mission.is_over):
+                each = [
+                    one
+                    for info, *lines in told
+                    for one in _far(info, *([line for line in some if line in about] for some in lines))
+                ]
+                words = sentence("Not all of “{words}” is done yet.", words=mission.info.words)
+                if mission.is_over:
+                    words = sentence(ENDED, words=mission.info.words)
+                if not any(info.state in ("undone", "refused") for info, *_ in told) and mission.is_over:
+                    words = closing(mission.info.words, [info for info, *_ in told])
+                return together(*((words,) if len(about) == len(every) else ()), *each)
+        return None
+
+    def going(self, robot: str) -> MissionPart | None:
+        """The newest part of a robot that is not over."""
+        parts = [part.info for part in self._parts() if part.info.robot == robot]
+        return next((part for part in reversed(parts) if part.state not in OVER), None)
 
     def of(self, order: str) -> MissionInfo | None:
         """The mission of which an order is a part."""
@@ -231,11 +284,27 @@ def closing(words: str, parts: Sequence[MissionPart]) -> Sentence:
         "refused": "{robot} had to leave its part: {steps}.",
     }
     refused = any(part.state == "refused" for part in missed)
-    ended = "“{words}” has ended, and not all of it is done." if refused else "“{words}” has ended."
+    ended = "“{words}” has ended, and not all of it is done." if refused else ENDED
     return together(
         sentence(ended, words=words),
         *(sentence(told[part.state], robot=part.robot, steps=listed(part.left)) for part in missed),
     )
+
+
+def _far(info: MissionPart, done: Sequence[str], left: Sequence[str]) -> list[Sentence]:
+    """How far a robot is with its part."""
+    told = [sentence("{robot} has done: {steps}.", robot=info.robot, steps=listed(done))] if done else []
+    if info.state == "interrupted":
+        return [*told, sentence("What has become of the part of {robot} is not known.", robot=info.robot)]
+    if left and info.state not in OVER:
+        told.append(sentence("{robot} still has to do: {steps}.", robot=info.robot, steps=listed(left)))
+    elif left and info.state != "given":
+        told.append(sentence("{robot} left out: {steps}.", robot=info.robot, steps=listed(left)))
+    return told
+
+
+def _words(text: str) -> set[str]:
+    return {*re.findall(r"\w+", text.lower())}
 
 
 def _said(step: PlanStep) -> str:

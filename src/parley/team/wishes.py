@@ -66,13 +66,15 @@ class Part:
 class TeamWish:
     """How a message spreads work over robots, or what it asks about them."""
 
-    kind: Literal["share", "parts", "nearest", "about", "why", "swap"]
+    kind: Literal["share", "parts", "nearest", "about", "why", "swap", "progress", "drop", "bar", "judged"]
     parts: tuple[Part, ...] = ()
-    """For `share` one, of all; for `swap` those that are named."""
+    """For `share` one, of all; for `swap` those that are named; for `bar` where each of them shall not go."""
     about: str = ""
-    """For `nearest` the place, for `about` the question as that robot would be asked."""
+    """For `nearest` the place, for `about` the question as that robot would be asked, for `progress` what was
+    asked of, if not all of it, for `judged` words that judge nothing."""
     robot: str = ""
-    """For `about`, empty: each of them is asked. For `why` who was chosen or was not, if one is named."""
+    """For `about`, empty: each of them is asked. For `why` who was chosen or was not, if one is named. For
+    `drop` whose part is given up."""
     one_each: bool = False
     """For `share`: nobody takes more than one."""
     count: int = 0
@@ -81,6 +83,8 @@ class TeamWish:
     """Only things are named, not what is to be done there."""
     anew: bool = False
     """Whether what was wanted before is wanted no more."""
+    otherwise: TeamWish | None = None
+    """For `progress`: what it asks if no such work is known."""
 
 
 _SEVERAL: Final = re.compile(r"\b(?:all|every|each|both|any|two|three|four|five|six|[2-9])\b", re.IGNORECASE)
@@ -163,11 +167,12 @@ class _Words:
         """How a message is meant for a team; `alone`: or for one that is named."""
         asks = message.rstrip().endswith("?")
         text = _plain(message)
-        bare = self._called_as_team(self.begun(text))
+        bare = self._respective(self._awaiting(self._called_as_team(self.begun(text))))
         opened = self._match(
             rf"(?:{self.of('lead')} )?{self.of('afresh')}(?:[,;:.!]+(?: and| but)?| and) (?P<rest>.+)", bare
         )
-        wish = self.about(text) or self._read(bare, asks=asks, alone=alone)
+        wish = self._progress(self.begun(text), asks=asks) or self.about(text)
+        wish = wish or self._read(bare, asks=asks, alone=alone)
         sparing = self._sparing(bare)
         if sparing is not None and (wish is None or self._called(sparing.parts[0].order) == ()):
             return sparing
@@ -183,12 +188,68 @@ class _Words:
             two = len(named) in (0, 2)
             return TeamWish("swap", tuple(Part("named", "", name) for name in named)) if two else None
         return (
-            self._other(text)
+            self._told_of_one(text)
+            or self._judged(text)
+            or self._other(text)
             or self._taken_over(text)
             or self.share(text)
             or self._bare(text, asks=asks)
             or self.parts(text, asks=asks, alone=alone)
         )
+
+    def _progress(self, text: str, *, asks: bool) -> TeamWish | None:
+        """How far the work is, or whether something of it is done."""
+        if self._match(self.of("progress"), text):
+            return TeamWish("progress", otherwise=TeamWish("about", about="what are you doing?"))
+        found = self._match(self.of("checked"), text) if asks else None
+        what = next(filter(None, found.groups()), "") if found else ""
+        if not what or self._called(what):
+            return None
+        return TeamWish("progress", about=what.strip(), otherwise=self.about(text))
+
+    def _told_of_one(self, text: str) -> TeamWish | None:
+        """What one of the team is to do no more, or nowhere near something."""
+        if found := self._match(self.of("dropping"), text):
+            return TeamWish("drop", robot=next(iter(self._called(text))))
+        found = self._match(self.of("barring"), text)
+        named = {key[:5]: value for key, value in found.groupdict().items() if value} if found else {}
+        if found is None or not (robots := self._called(named["robot"])):
+            return None
+        how = "drive near" if re.search(r"\b(?:near|close)\b", text, re.IGNORECASE) else "go into"
+        parts = (Part("named", f"you must not {how} {named['place']}", name) for name in robots)
+        return TeamWish("bar", tuple(parts))
+
+    def _judged(self, text: str) -> TeamWish | None:
+        """A part that depends on what another one finds, which nobody waits for."""
+        who = rf"(?:{self._names}|{self.of('rest')}|{self.of('all')})"
+        found = re.search(rf"(?<=[,;. ]){self.of('judging')},?(?: then)? (?={who}\b)", text, re.IGNORECASE)
+        if found is None or not self._pieces(told := f"{text[: found.start()]}then {text[found.end() :]}"):
+            return None
+        return TeamWish("judged", about=told)
+
+    def _awaiting(self, text: str) -> str:
+        """What somebody does after waiting for another one, as it is said of a part."""
+        who = self._names + ("|you" if self._hearer else "")
+        waits = rf"(?:(?P<who>{who}),? )?{self.of('awaiting')}"
+        found = self._match(waits, text)
+        if found and (doer := found["who"] or self._hearer):
+            return f"when {found['of']} is done, {doer} {found['order']}"
+        found = self._match(rf"(?P<who>{who}),? (?P<when>{self.of('when')}),? (?P<order>.+)", text)
+        if found and self._called(found["when"]):
+            return f"{found['when']}, {found['who']} {found['order']}"
+        return text
+
+    def _respective(self, text: str) -> str:
+        """Who does which of several things, told as one part after the other."""
+        some = rf"(?P<some>{self._names}(?:(?:,? and|,) {self._names})+),?(?: {self.of('modal')})?"
+        found = self._match(rf"{some} (?P<order>.+?),? (?:respectively|in (?:that|this) order)", text)
+        if found is None:
+            return text
+        names, orders = self._called(found["some"]), re.split(r",? and |, ", found["order"])
+        orders[1:] = [one if _acts(one) else f"{_opened(orders[0])} {one}" for one in orders[1:]]
+        if len(names) != len(orders):
+            return text
+        return ", ".join(f"{name} {order}" for name, order in zip(names, orders, strict=True))
 
     def _sparing(self, text: str) -> TeamWish | None:
         """Work for all but those who are to have no part in it."""
@@ -282,6 +343,9 @@ class _Words:
                 return TeamWish("nearest", about=found["place"])
         if found := self._match(self.of("chosen"), bare):
             return TeamWish("why", robot=self._robots.get((found["robot"] or "").lower(), ""))
+        for name, asked in (("owned", "what are you doing?"), ("through", "are you done?")):
+            if found := self._match(self.of(name), bare):
+                return TeamWish("about", about=asked, robot=self._called(bare)[0])
         if self._match(self.of("doing"), bare):
             return TeamWish("about", about="what are you doing?")
         named = re.findall(rf"\b{self._names}\b", bare, re.IGNORECASE)
@@ -386,6 +450,14 @@ class _Words:
         text = self._recalled(text)
         if found := self._match(rf"{self.of('handing')} (?P<rest>(?:{anyone}) .+)", text):
             text = found["rest"]
+        if self._hearer and (
+            found := self._match(rf"{self.of('handing')} {self.of('rest')} (?P<order>.+)", text)
+        ):
+            rest = self._part("rest", "", found["order"], after=False, known=())
+            spoken_to = (self._hearer,)  # "tell the others to come": all but the one that hears it
+            return TeamWish("parts", (replace(rest, without=spoken_to),)) if rest is not None else None
+        if found := self._match(rf"(?P<order>.+?),? with (?P<some>{self.of('some')})", text):
+            text = f"{found['some']} {found['order']}"
         others = rf"(?:{anyone}|{self.of('rest')}|{self._names})"
         text = re.sub(rf"((?:[,;:.]|\band|\bbut) ){self.of('handing')} (?={others}\b)", r"\1", text)
         handing = (

@@ -62,11 +62,25 @@ class MissionBoard:
     def call_off(self, robot: str, said: ChatInput) -> None:
         """Drop what others still do of the mission that a robot has a part of, and nothing else of theirs."""
         for part in self._book.beside(robot):
-            drop = SystemCommand(command="clear", arguments={"order": part.order})
-            order = ChatAction(
-                system_cmd=(drop,), targets=(part.robot,), by=said.who, words=said.message, reply_to=said.id
-            )
-            self._node.publish(topics.CHAT_ACTION, order)
+            self._drop(part, said)
+
+    def drop(self, robot: str, said: ChatInput) -> bool:
+        """Drop what a robot still does of a mission, and nothing else; whether it does anything of one."""
+        part = self._book.going(robot)
+        if part is not None:
+            self._drop(part, said)
+        return part is not None
+
+    def progress(self, what: str, *, ended: bool) -> Sentence | None:
+        """See `MissionBook.progress`."""
+        return self._book.progress(what, ended=ended)
+
+    def _drop(self, part: MissionPart, said: ChatInput) -> None:
+        drop = SystemCommand(command="clear", arguments={"order": part.order})
+        order = ChatAction(
+            system_cmd=(drop,), targets=(part.robot,), by=said.who, words=said.message, reply_to=said.id
+        )
+        self._node.publish(topics.CHAT_ACTION, order)
 
     def refuse(self, order: str) -> None:
         """A part is not done at all."""

@@ -12,7 +12,7 @@ from parley.agents.chat import texts
 from parley.agents.chat.answering import Answering
 from parley.agents.chat.mission_board import MissionBoard
 from parley.agents.chat.situations import Situations
-from parley.agents.chat.team import Mission, Share, TeamTalk
+from parley.agents.chat.team import GIVES_UP, Mission, Share, TeamTalk
 from parley.agents.planner.asking import SHALL_I, counted
 from parley.agents.planner.check import complete_calls
 from parley.agents.presence import Presence
@@ -145,8 +145,17 @@ class Missions:
         if (reasons := self._reasons(target, said, wish)) is not None:
             self._say((target,), reasons, said)
             return True
+        if wish is not None and wish.kind == "progress":
+            ended = not any(map(self._talk.is_busy, self._presence.names()))
+            if told := self._board.progress(wish.about, ended=ended):
+                self._say((target,), told, said)
+                return True
+            wish = wish.otherwise
         if wish is not None and wish.kind == "why":
             return False
+        if wish is not None and wish.kind in ("drop", "bar"):
+            self._tell(target, wish, said)
+            return True
         try:
             async with self._answering.thinking(target, said):
                 mission = await self._talk.unread(target, said) if wish is None else None
@@ -169,6 +178,24 @@ class Missions:
         else:
             self._say((target,), mission.text, said, mission.choices)
         return True
+
+    def _tell(self, target: str, wish: TeamWish, said: ChatInput) -> None:
+        """What a person says of one robot, to that robot: to give up its part, or where not to go."""
+        robot = wish.robot
+        if robot and self._board.drop(robot, said):
+            text = sentence(GIVES_UP, robot=robot)
+            self._known.note(target, said.message, text)
+            self._say(tuple(dict.fromkeys((target, robot))), text, said)
+            return
+        for name, words in [(part.robot, part.order) for part in wish.parts] or [
+            (robot, "cancel everything")
+        ]:
+            if not self._presence.is_there(name):
+                self._say((target,), texts.not_there(name), said)
+            elif robot and not self._talk.left(robot):
+                self._say((target,), sentence("{robot} has nothing left to do.", robot=robot), said)
+            else:
+                self._hear(name, said.model_copy(update={"message": words, "targets": (name,)}))
 
     def _reasons(self, target: str, said: ChatInput, wish: TeamWish | None) -> Sentence | None:
         """Why work went to those who have it; None if that is not asked, or nothing is known of it.

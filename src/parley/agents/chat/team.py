@@ -39,6 +39,7 @@ __all__ = ["Mission", "Share", "TeamTalk"]
 
 TELL_EACH: Final = sentence("I cannot tell what of that can be done apart. Please tell each of us its part.")
 WHO_DOES: Final = sentence("I cannot tell which of us is to do what. Please tell each of us its part.")
+JUDGED: Final = sentence("We can wait until that is done, but not judge what is found. Shall we do it so?")
 IN_FULL: Final = sentence("I do not know what you mean by that. Please say it in full.")
 LEFT_OUT: Final = "What {robots} had to do before is left out."
 GIVES_UP: Final = "{robot} gives up what is left of its plan."
@@ -173,6 +174,8 @@ class TeamTalk:
             return self._swapped([part.robot for part in wish.parts], members)
         if wish.count and wish.count != len(team or self._presence.names()):
             return Mission(text=sentence("Which of us do you mean? Please call us by our names."))
+        if wish.kind == "judged":
+            return Mission(text=JUDGED, choices=(wish.about,))
         work = _Work(self, said, members, plain=plain)
         if wish.kind == "nearest":
             return await work.nearest(wish.about)
@@ -425,7 +428,7 @@ class _Work:
     async def parts(self, wish: TeamWish, target: str) -> Mission | None:
         """Who does what of an order."""
         before: tuple[str, ...] = ()
-        for part in wish.parts:
+        for part in self._but_one(wish.parts):
             if part.stays:
                 self._stay(self._of(part, {share.robot for share in self._shares}))
                 continue
@@ -462,6 +465,19 @@ class _Work:
             self._notes.append(sentence(LEFT_OUT, robots=listed(given_up)))
         text = together(*dict.fromkeys(self._notes))
         return Mission(shares, text, dropped=self._dropped, stands=tuple(self._stands))
+
+    def _but_one(self, parts: Sequence[Part]) -> list[Part]:
+        """The parts, where some stay whoever they are: those are who is left by the others' part."""
+        staying = [part for part in parts if part.stays and part.who in ("one", "some")]
+        others = [part for part in parts if part.who in ("all", "rest") and not part.stays]
+        if len(staying) != 1 or len(others) > 1:
+            return [*parts]
+        found = [part for part in parts if part is not staying[0]]
+        named = {name for part in parts for name in (part.robot, *part.without) if name}
+        go = len(self._members.keys() - named) - staying[0].count
+        if others and go > 0:
+            found[found.index(others[0])] = replace(others[0], who="some", count=go)
+        return [*found, replace(staying[0], who="rest", without=(*named,))]
 
     def _stay(self, members: Mapping[str, ActorStatus]) -> None:
         """These do nothing."""
@@ -569,7 +585,9 @@ class _Work:
         if together and not (splits and (fits or is_of_several(words) or " and " not in words)):
             return _how_to_share(part, words, [*own])
         if part.who in ("one", "some"):
-            if part.count > 1 and splits:  # "two of you check the areas" is not that both check all
+            if (
+                part.count > 1 and splits and len(first.tasks) > 1
+            ):  # "two of you check the areas" is not that both check all
                 return await self._allot([*first.tasks], first, able, part, one_each=False)
             return await self._allot([first.calls] * part.count, first, able, part, one_each=True)
         if wish.kind == "share" or together:
