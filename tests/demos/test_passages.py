@@ -41,13 +41,16 @@ robots:
   - {name: Kim, model: turtlebot3_waffle, pose: [3.4, 4.4, 0.0]}
   - {name: Lee, model: turtlebot3_waffle, pose: [8.6, 3.2, 3.14]}
 """
+LIFT = "name: elevator, corners: [[9.6, 4.0], [12, 4.0], [12, 6.0], [9.6, 6.0]]"
 ROBOTS = ("Ada", "Kim", "Lee")
 
 
 @asynccontextmanager
-async def halls(speed: float | None = None) -> AsyncIterator[tuple[House, list[PassageList]]]:
+async def halls(
+    speed: float | None = None, world: str = WORLD
+) -> AsyncIterator[tuple[House, list[PassageList]]]:
     """The halls, and who was told to be in the passage; nobody may ever meet there."""
-    system = System(WorldFile.parse(WORLD), SystemConfig(speed=speed))
+    system = System(WorldFile.parse(world), SystemConfig(speed=speed))
     (passage,) = system.objects.areas
     seen: list[PassageList] = []
     most = 0
@@ -116,6 +119,21 @@ async def test_who_stands_in_the_doorway_and_is_seen_from_afar_is_waited_for_and
         await home.say("go to the desk", "Lee")
         assert set(await home.done("Kim")) == {"finished"}
         assert home.distance_m("lamp_1", "Kim") < 1.0
+
+
+async def test_an_elevator_holds_one_and_who_waits_for_it_says_so_when_asked() -> None:
+    world = WORLD.replace("name: passage, corners: [[5.5, 2.4], [6.5, 2.4], [6.5, 3.6], [5.5, 3.6]]", LIFT)
+    async with halls(world=world) as (home, _):
+        await home.say("go to the elevator", "Lee")
+        assert set(await home.done("Lee")) == {"finished"}
+        await home.say("go to the elevator", "Kim")
+        await home.observer.until(lambda: _waits(home, "Kim"), timeout_s=PATIENCE_S)
+        for question in ("what are you doing?", "how long will it take?"):
+            told = (await home.say(question, "Kim")).message
+            assert told.endswith("I am waiting before “elevator”: Lee goes first.")
+        await home.say("go to the desk", "Lee")
+        assert set(await home.done("Kim")) == {"finished"}
+        assert _in_passage(home, "Kim")
 
 
 def _in_passage(home: House, robot: str) -> bool:

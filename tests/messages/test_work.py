@@ -26,3 +26,13 @@ def test_time_to_go_is_told_from_when_the_robot_got_going_and_without_the_time_i
     assert work.left_s(61_000) == 6.5
     assert work.left_s(63_000) == 4.5
     assert work.left_s(70_000) is None, "later than thought: nobody knows"
+
+
+def test_while_it_waits_nobody_knows_how_long_it_takes() -> None:
+    work = Work()
+    for event in (told(500, "RUNNING"), told(1000, share=0.1), told(2000, share=0.3), told(3000)):
+        work.on_event(event)
+    assert work.left_s(3000) is None
+    for event in (told(9000, share=0.3), told(10_000, share=0.5)):
+        work.on_event(event)
+    assert work.left_s(10_000) == 2.5

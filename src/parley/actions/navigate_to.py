@@ -34,12 +34,21 @@ async def navigate_to(ctx: ActionContext, pose: Pose) -> Outcome:
     start = ctx.robot.pose()
     total_m = max(start.distance_to(pose.planar()), 0.1)
 
-    def on_progress(remaining_m: float) -> None:
-        nonlocal total_m
-        total_m = max(total_m, remaining_m)
-        ctx.run.progress(1.0 - remaining_m / total_m, f"{remaining_m:.1f} m to go")
+    left_m, waiting = total_m, ""
 
-    control = NavigationControl(on_progress=on_progress, paused=lambda: ctx.run.paused)
+    def on_progress(remaining_m: float) -> None:
+        nonlocal total_m, left_m
+        total_m, left_m = max(total_m, remaining_m), remaining_m
+        far = None if waiting else 1.0 - remaining_m / total_m
+        ctx.run.progress(far, waiting or f"{remaining_m:.1f} m to go")
+
+    def on_waiting(text: str) -> None:
+        nonlocal waiting
+        if waiting != text:
+            waiting = text
+            on_progress(left_m)
+
+    control = NavigationControl(on_progress=on_progress, paused=lambda: ctx.run.paused, waits=on_waiting)
     try:
         arrived = await ctx.robot.navigate(pose.planar(), control, timeout_s=TIMEOUT_S)
     except ActionFailure as failure:

@@ -45,6 +45,8 @@ class Work:
         return left_ms / 1000 if left_ms > 0 else None
 
     def _estimate(self, share: float | None, unix_ms: int) -> None:
+        if share is None:  # it waits, nobody knows how long
+            self.ends_unix_ms, self._going = 0, None
         if share is None or not self.since_unix_ms:
             return
         gone_ms = self.ms + unix_ms - self.since_unix_ms

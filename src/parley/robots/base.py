@@ -124,6 +124,8 @@ class NavigationControl:
     """Gets the remaining distance in metres, a few times a second."""
     paused: Callable[[], bool]
     """While true the robot stands still and waits."""
+    waits: Callable[[str], None] = lambda _: None
+    """Gets for what it stands and waits, as people read it, whenever that changes; empty: it goes on."""
 
 
 class Arm(Protocol):

@@ -131,7 +131,9 @@ class RunRobot:
             if control.paused() or not motion.allowed:
                 turn.rest()
                 return True
-            return not turn.may_go(self._robot.planned_path())
+            goes = turn.may_go(self._robot.planned_path())
+            control.waits(turn.waits_for)
+            return not goes
 
         held = replace(control, paused=stands)
         drive = asyncio.ensure_future(self._driven(goal, held, timeout_s))

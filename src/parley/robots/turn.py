@@ -92,6 +92,12 @@ class Turn:
         """In which places somebody else was when the drive began."""
         self._asked_s = 0.0
 
+    @property
+    def waits_for(self) -> str:
+        """For what it stands and waits, as people read it; empty: for nothing, or nobody knows yet."""
+        wait = self._wait
+        return _told(wait) if wait is not None and wait.known and wait.others else ""
+
     def _limited(self) -> list[MapArea]:
         return [area for area in self._places() if area.capacity is not None]
 

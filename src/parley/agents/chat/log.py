@@ -126,8 +126,8 @@ class Log:
         if event.state == "RUNNING" and facts.over:  # it is done once more
             facts.over, facts.left_text = False, ""
         facts.work.on_event(event)
-        if event.progress is not None:
-            facts.left_text = event.progress_text
+        if event.kind == "progress":
+            facts.left_text = event.progress_text.rstrip(".")
         if event.result:
             found = event.outputs.get("seen")
             facts.seen = tuple(map(str, found.value)) if found is not None and found.has_data else ()
