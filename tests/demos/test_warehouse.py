@@ -70,3 +70,47 @@ async def test_dropping_an_order_whose_drive_never_ends_leaves_plan_engine_and_r
         assert await house.done() == ["finished", "finished"]
         assert house.distance_m("shelf_1") < 1.4
         over.set()
+
+
+BOARDED_UP = {
+    "add": [
+        {
+            "name": "boards",
+            "class": "board",
+            "description": "board",
+            "pose": [0.9, 1.2, 0],
+            "listed": False,
+            "mapped": False,
+            "parts": [
+                {"size_m": [0.1, 3.4, 1.2], "at_m": [1.6, 0, 0], "colour": "#b08d57"},
+                {"size_m": [2.9, 0.1, 1.2], "at_m": [0.2, 1.7, 0], "colour": "#b08d57"},
+            ],
+        }
+    ]
+}
+
+
+async def test_dropping_an_order_that_failed_at_the_dock_leaves_all_agreeing_and_it_works_again(
+    demo: Demo, tmp_path: Path
+) -> None:
+    """Thesis 5.4.3 with a world that makes navigation fail there, and what is answered meanwhile."""
+    system = demo.system(SystemConfig(speed=None, data_dir=tmp_path))
+    async with running(system) as house:
+        await house.say("Go to shelf 2.")
+        await house.done()
+        assert system.simulator is not None
+        system.simulator.change(BOARDED_UP)
+        await house.say("Return to the charging dock.")
+        assert "try again" in (await house.question()).choices
+        for question in ("what went wrong?", "what is the plan?"):
+            assert "Something is in the way by the charging dock" in (await house.say(question)).message
+        await house.say("Clear everything.")
+        await house.state("idle")
+        assert [*house.observer.graph_states.values()] == ["HALTED", "STOPPED"]  # that of shelf 2 ran dry
+        assert "Nothing is left to do" in (await house.say("what is the plan?")).message
+        await house.say("Go to shelf 1.")
+        assert await house.done() == ["finished", "finished"]
+        system.simulator.change({"remove": ["boards"]})
+        await house.say("Return to the charging dock.")
+        assert await house.done() == ["finished", "finished"]
+        assert house.distance_m("dock_1") < 1.4

@@ -134,9 +134,8 @@ def _left(situation: Situation, about: str) -> str:
         return (
             f"Nothing is begun. This waits for your yes: {listed([step_words(x) for x in proposal.lines])}."
         )
-    if not left:
-        return "Nothing is left to do."
-    return f"Left to do: {'; '.join(step_words(step.label) for step in left)}."
+    told = f"Left to do: {'; '.join(step_words(step.label) for step in left)}."
+    return told if left else _failed(situation) or "Nothing is left to do."
 
 
 def _beside(situation: Situation, about: str) -> str:
@@ -165,7 +164,8 @@ def _did(situation: Situation, about: str) -> str:
     more = f"{counted(len(parts) - _MOST, 'other thing')} before that; " if len(parts) > _MOST else ""
     done = f"I did this: {more}{'; '.join(parts[-_MOST:])}." if parts else "Nothing is done yet."
     now = list(dict.fromkeys(step_words(deed.label) for deed in begun if deed.ending == "running"))
-    return f"{done} I have begun to {listed(now)}." if now else done
+    failed = _failed(situation) if re.search(r"\b(?:wrong|happened)\b", situation.message.lower()) else ""
+    return f"{done} I have begun to {listed(now)}." if now else f"{done} {failed}".rstrip()
 
 
 def _before_stop(situation: Situation, about: str) -> str:
