@@ -51,7 +51,7 @@ async def test_story_holds_and_the_bag_is_found_where_the_camera_saw_it(
     assert {"areas_of_interest", "black_bag_sighting", "picture of the black bag"} <= kept
 
 
-@pytest.mark.parametrize("name", ["black bag", "bag"])
+@pytest.mark.parametrize("name", ["black bag", "bag", "suspicious bag"])
 async def test_a_bag_that_is_on_the_map_beforehand_is_that_bag_and_no_area_is_taken_for_another(
     demo: Demo, tmp_path: Path, name: str
 ) -> None:

@@ -82,7 +82,9 @@ async def inspect(ctx: ActionContext, inspect: str) -> Inspection | Outcome:
         raise _alarm(text, report, found, rules=[*report.rules])
     if ctx.run.result_asked:
         return _answered(ctx, inspect, image, report, found)
-    if report.attention or (report.found and report.unwanted):
+    # What the map has by that very name is looked at because somebody knows of it.
+    is_known = any(item.description.lower() == inspect.lower() for item in ctx.world.objects.objects)
+    if report.attention or (report.found and report.unwanted and not is_known):
         raise _alarm(report.text, report, found)
     if report.found is False and not report.unwanted:
         raise not_seen(image, report.wanted or inspect, report.text, ctx.world.objects)
