@@ -231,6 +231,8 @@ async def test_one_part_is_dropped_the_rest_goes_on_and_how_far_it_is_is_told_of
         far = await home.say("has area A been checked?", "Leo")
         assert far.message.startswith("TIAGo left out: Go to “Area A”")
         assert (await home.say("cancel Leo's part", "Spot")).message == "Leo has nothing left to do."
+        await home.say("emergency stop", "Leo")
+        assert "emergency stop" in (await home.say("what happened to Leo?", "Spot")).message
 
 
 async def test_some_stay_whoever_they_are_and_only_the_others_go() -> None:

@@ -209,6 +209,7 @@ def test_orders_and_questions_of_other_things_are_left_to_whoever_understands_th
         ("listen here, everybody go to the gate", "everybody go to the gate"),
         ("go to the gate, then to the desk", None),
         ("say hello to everybody", None),
+        ("hm, well, one of you, share the work", ""),
     ],
 )
 def test_words_to_a_team_are_known_as_such_though_they_are_not_read(say: str, read: str | None) -> None:

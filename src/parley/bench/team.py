@@ -25,8 +25,9 @@ from parley.system import System
 __all__ = ["Kind", "TeamTask", "Verdict", "load_tasks", "measure_team", "try_task"]
 
 Kind = Literal["elemental", "simple", "compound", "complex"]
-Verdict = Literal["right", "asks", "declines", "wrong"]
-"""`asks`: a question was put, and nobody set out; `declines`: nobody set out, and nothing was asked."""
+Verdict = Literal["right", "asks", "declines", "wrong", "unfinished"]
+"""`asks`: a question was put, and nobody set out; `declines`: nobody set out, and nothing was asked;
+`unfinished`: it had not ended when the time for it was over, which a slow machine does, too."""
 
 _NEAR_M: Final = 1.7
 _REPLY_S: Final = 60.0
@@ -94,7 +95,7 @@ async def try_task(demo: Demo, task: TeamTask, *, seed: int = 0) -> tuple[Verdic
                 replies = [await _say(observer, watch, system, line) for line in task.lines]
                 await observer.until(watch.is_over, timeout_s=_END_S)
             except TimeoutError:
-                return "wrong", "it did not end"
+                return "unfinished", "it did not end"
             finally:
                 await subscription.close()
             return _judged(system, watch, task, replies)

@@ -129,7 +129,7 @@ def is_unread(message: str, robots: Sequence[str]) -> str | None:
     words = _Words(tuple(robots))
     tails = (message[cut.end() :] for cut in re.finditer(r"[,;:.!–—-]\s+", message))
     read = next(
-        (tail for tail in tails if (wish := words.wish(tail)) and wish.kind in ("share", "parts")), ""
+        (tail for tail in tails if (wish := words.wish(tail)) and any(part.order for part in wish.parts)), ""
     )
     return read if read or re.search(rf"\b{words.of('group')}\b", message, re.IGNORECASE) else None
 
@@ -171,7 +171,7 @@ class _Words:
         opened = self._match(
             rf"(?:{self.of('lead')} )?{self.of('afresh')}(?:[,;:.!]+(?: and| but)?| and) (?P<rest>.+)", bare
         )
-        wish = self._progress(self.begun(text), asks=asks) or self.about(text)
+        wish = self._progress(self.begun(text), asks=asks) or self._told_of_one(text) or self.about(text)
         wish = wish or self._read(bare, asks=asks, alone=alone)
         sparing = self._sparing(bare)
         if sparing is not None and (wish is None or self._called(sparing.parts[0].order) == ()):
@@ -188,8 +188,7 @@ class _Words:
             two = len(named) in (0, 2)
             return TeamWish("swap", tuple(Part("named", "", name) for name in named)) if two else None
         return (
-            self._told_of_one(text)
-            or self._judged(text)
+            self._judged(text)
             or self._other(text)
             or self._taken_over(text)
             or self.share(text)
@@ -209,6 +208,7 @@ class _Words:
 
     def _told_of_one(self, text: str) -> TeamWish | None:
         """What one of the team is to do no more, or nowhere near something."""
+        text = self.begun(re.sub(rf"^{self.of('afresh')},? ", "", text, flags=re.IGNORECASE))
         if found := self._match(self.of("dropping"), text):
             return TeamWish("drop", robot=next(iter(self._called(text))))
         found = self._match(self.of("barring"), text)
@@ -228,7 +228,9 @@ class _Words:
         return TeamWish("judged", about=told)
 
     def _awaiting(self, text: str) -> str:
-        """What somebody does after waiting for another one, as it is said of a part."""
+        """What somebody does after waiting for another one, or as it is through, as it is said of a part."""
+        if (found := self._match(self.of("free"), text)) is not None:
+            return f"let {found['robot']} {found['order']}"
         who = self._names + ("|you" if self._hearer else "")
         waits = rf"(?:(?P<who>{who}),? )?{self.of('awaiting')}"
         found = self._match(waits, text)
@@ -343,7 +345,9 @@ class _Words:
                 return TeamWish("nearest", about=found["place"])
         if found := self._match(self.of("chosen"), bare):
             return TeamWish("why", robot=self._robots.get((found["robot"] or "").lower(), ""))
-        for name, asked in (("owned", "what are you doing?"), ("through", "are you done?")):
+        if self._match(self.of("finders"), bare):
+            return TeamWish("about", about="did you find anything?")
+        for name, asked in _OF_ONE.items():
             if found := self._match(self.of(name), bare):
                 return TeamWish("about", about=asked, robot=self._called(bare)[0])
         if self._match(self.of("doing"), bare):
@@ -400,7 +404,16 @@ class _Words:
             found["order"]
         ):
             return _shared(found["order"])
-        return self._one_per(text) or self._one_each(text)
+        return self._at_last(text) or self._one_per(text) or self._one_each(text)
+
+    def _at_last(self, text: str) -> TeamWish | None:
+        """Work of which it is said behind it, or behind a part of it, that it is to be shared."""
+        between, split, that = self.of("between"), self.of("split"), self.of("that")
+        found = self._match(rf"(?P<order>.+?)(?:,? and|[,;.:]) {split} {that}(?: up| out)?", text)
+        found = found or self._match(rf"(?P<order>.+?) {between}(?P<more>,? and .+)", text)
+        if found is None or not _acts(found["order"]):
+            return None
+        return _shared(found["order"] + (found.groupdict().get("more") or ""))
 
     def _one_per(self, text: str) -> TeamWish | None:
         """A robot for each of some things: "one robot per area", "a robot at each door"."""
@@ -697,6 +710,9 @@ class _Words:
         return replace(part, order=order) if acts and " " in order else None
 
 
+_OF_ONE: Final = {
+    "owned": "what are you doing?", "through": "are you done?", "fate": "what is wrong?",
+}  # fmt: skip
 _Piece = tuple[Who, str, str, bool, str]
 """A part as said: who, in which words, what to do, whether it comes after another one, and after whose."""
 _NAME_WORDS: Final = 3
