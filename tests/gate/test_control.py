@@ -53,6 +53,8 @@ from parley.gate.control import Control, control_of
         ("weiter", "start"),
         ("continúa", "start"),
         ("skip it", "skip"),
+        ("leave a step out", "skip"),
+        ("move on", "start"),
         ("skip this step", "skip"),
         ("next step", "skip"),
         ("cancel everything", "clear"),
@@ -172,4 +174,9 @@ def test_a_control_word_is_found_among_small_words_and_what_is_told(text: str, c
     ],
 )
 def test_what_goes_on_to_name_something_is_no_control(text: str) -> None:
+    assert control_of(text) is None
+
+
+@pytest.mark.parametrize("text", ["Leave out A", "leave A out", "can you move it?", "move it"])
+def test_what_may_name_a_thing_is_no_order_of_the_plan(text: str) -> None:
     assert control_of(text) is None

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import cache
-from typing import Any, Literal
+from itertools import pairwise
+from typing import Any, Final, Literal
 
 from parley.files import words_in
 
@@ -87,13 +88,22 @@ def _unasked(words: Words) -> Words:
         words = words[len(lead) :]
 
 
+_OF_A: Final = frozenset(
+    {"step", "stop", "task", "action", "thing", "item", "leg", "place", "bit", "part", "piece"}
+)
+
+
 def _is_made_of(words: Words, kind: Composed) -> bool:
     verb = next((verb for verb in _verbs(kind) if words[: len(verb)] == verb), ())
     rest = set(words[len(verb) :])
     if not verb or not rest <= frozenset(_data()[kind]["small"]):
         return False
-    if verb in {("move",), ("finish",)}:
+    if verb == ("move",):  # "move it" is said of what stands in the way, too
+        return bool(rest & {"again", "on", "now", "off"}) and not rest & {"it", "this", "that"}
+    if verb == ("finish",):
         return bool(rest & {"again", "on", "now", "off", "it", "this", "round", "job", "started"})
+    if kind == "skip" and any(pair[0] == "a" and pair[1] not in _OF_A for pair in pairwise((*words, ""))):
+        return False  # "leave out A"
     if kind == "skip" and "next" in rest and not rest & _THIS_FIRST:
         # "Skip the next one": what is done now is not meant.
         return False
