@@ -191,3 +191,14 @@ def test_what_is_done_at_a_place_goes_with_it(message: str, left: str) -> None:
     situation = replace(answer(message)[0], queue=queue, status="running")
     made = asyncio.run(ENGINE.interpret(situation))
     assert ", ".join(text for call in pending(queue, made) for text in texts_of(call)) == left
+
+
+def test_of_what_is_done_in_a_row_at_one_place_the_place_is_told_once() -> None:
+    look = [
+        ActionCall(name="look", input_parameters={"what": Parameter(type="string", value=place)})
+        for place in PLAN
+    ]
+    queue = tuple(call for place, seen in zip(PLAN, look, strict=True) for call in (drive(place), seen))
+    situation = replace(answer("no, the workshop first")[0], queue=queue, status="running")
+    made = asyncio.run(ENGINE.interpret(situation))
+    assert made.message_response == "All right, in this order: workshop, gate 1, gate 2."

@@ -259,11 +259,8 @@ def _change(groups: _Groups, wanted: _Groups) -> Change | None:
         return Change((), calls, "end", said=said)
     changed = reordered([], behind, [], "instead", calls, said)
     old = any(call.flow is not None for visit in behind for call in visit.calls)
-    return (
-        Change(question="My plan has conditions, so I cannot change its order. Shall I drop it all?")
-        if old
-        else changed
-    )
+    question = "My plan has conditions, so I cannot change its order. Shall I drop it all?"
+    return Change(question=question) if old else changed
 
 
 def _said(groups: _Groups, wanted: _Groups) -> str:
@@ -272,4 +269,5 @@ def _said(groups: _Groups, wanted: _Groups) -> str:
     if gone and len(gone) + len(wanted) == len(groups):
         return f"All right, I will not {', nor '.join(visit.said for group in gone for visit in group)}."
     places = [group[0].things[0].description if group[0].things else group[0].said for group in wanted]
-    return f"All right, in this order: {', '.join(places)}."
+    told = (one for at, one in enumerate(places) if places[at - 1 : at] != [one])  # each place once in a row
+    return f"All right, in this order: {', '.join(told)}."
