@@ -57,3 +57,11 @@ def test_a_step_that_is_done_once_more_begins_anew() -> None:
     assert left(log) == ""
     told(log, "drive", progress=0.1, progress_text="9 m left")
     assert left(log) == "9 m left"
+
+
+def test_what_is_dropped_while_it_works_is_one_deed_that_was_given_up() -> None:
+    log = Log()
+    planned(log, ("drive", "running"))
+    stopped = PlanStep(action=ActionCall(name="NavigateTo"), id="drive", node="drive", state="stopped")
+    log.on_plan(PlanUpdate(target="A", state="idle", steps=(stopped,)), 1, ())  # of no graph any more
+    assert [deed.ending for deed in log.state(None, None, 2).deeds] == ["stopped"]

@@ -101,13 +101,15 @@ class Log:
 
     def on_plan(self, update: PlanUpdate, unix_ms: int, catalogue: Sequence[ActionInfo]) -> None:
         """The plan changed."""
+        # What is dropped is told of no graph any more, and is not another deed for that.
+        graph = update.graph_name or (self._plan.graph_name if self._plan is not None else "")
         self._plan = update
         effects = {info.name: info.effects for info in catalogue}
         for place, step in enumerate(update.steps):
             ending = _ENDINGS.get(step.state)
             if ending is None:
                 continue
-            key = (update.graph_name, step.node or f"{place} {step.label}")
+            key = (graph, step.node or f"{place} {step.label}")
             known = self._deeds.get(key)
             if known is None:
                 order = self._orders[-1] if self._orders else None
