@@ -177,6 +177,18 @@ async def test_whoever_hears_that_all_shall_stop_all_do() -> None:
         assert home.observer.state("Leo") == "paused"
 
 
+async def test_whoever_hears_that_all_of_them_shall_drop_everything_all_do() -> None:
+    async with hall() as home:
+        await told(home, "go to the pump", *ROBOTS)
+        await home.say("Stop, all of you", "Spot")
+        await home.say("cancel all", "Spot")  # all steps, of whoever hears it
+        await home.state("idle", "Spot")
+        assert home.observer.state("Leo") == "paused"
+        await home.say("Cancel everything, all of you", "TIAGo")
+        for robot in ROBOTS:
+            await home.state("idle", robot)
+
+
 async def test_some_stop_and_others_go_on_as_one_says_it_of_them() -> None:
     async with hall(speed=10.0) as home:
         await home.say("everybody back to the dock", "Spot")
@@ -517,6 +529,20 @@ async def test_story_holds_and_breaks_where_the_world_makes_it(
     ended, events, _ = await played(load_demo("fleet"), tmp_path, variant, seed=3)
     assert ended.partition(":")[0] == reason
     assert [event for event in events if event["event"] == "failure"] == []
+
+
+async def test_who_stands_since_a_restart_was_told_by_nobody_and_is_said_to_stand(tmp_path: Path) -> None:
+    async with hall(data_dir=tmp_path, speed=1.0) as home:
+        await told(home, "go to the pump", "Spot", "TIAGo")
+        await home.state("running", "Spot")
+        await home.state("running", "TIAGo")
+    async with hall(data_dir=tmp_path) as home:
+        for robot in ("Spot", "TIAGo"):
+            await home.state("paused", robot)
+        doing = await home.say("what are you doing?", "Spot")
+        assert doing.message.startswith("I stand still. Say “carry on” and I go to the pump")
+        still = await home.say("All of you, carry on", "Spot")
+        assert still.message.endswith("Spot, TIAGo still stands.")
 
 
 async def test_one_order_is_seen_as_one_and_its_end_is_told_truly(tmp_path: Path) -> None:

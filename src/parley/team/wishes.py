@@ -66,7 +66,9 @@ class Part:
 class TeamWish:
     """How a message spreads work over robots, or what it asks about them."""
 
-    kind: Literal["share", "parts", "nearest", "about", "why", "swap", "progress", "drop", "bar", "judged"]
+    kind: Literal[
+        "share", "parts", "nearest", "about", "why", "swap", "progress", "drop", "bar", "judged", "help"
+    ]
     parts: tuple[Part, ...] = ()
     """For `share` one, of all; for `swap` those that are named; for `bar` where each of them shall not go."""
     about: str = ""
@@ -74,7 +76,7 @@ class TeamWish:
     asked of, if not all of it, for `judged` words that judge nothing."""
     robot: str = ""
     """For `about`, empty: each of them is asked. For `why` who was chosen or was not, if one is named. For
-    `drop` whose part is given up."""
+    `drop` whose part is given up, for `help` whose work it is."""
     one_each: bool = False
     """For `share`: nobody takes more than one."""
     count: int = 0
@@ -188,7 +190,8 @@ class _Words:
             two = len(named) in (0, 2)
             return TeamWish("swap", tuple(Part("named", "", name) for name in named)) if two else None
         return (
-            self._judged(text)
+            self._helping(text)
+            or self._judged(text)
             or self._other(text)
             or self._taken_over(text)
             or self.share(text)
@@ -218,6 +221,14 @@ class _Words:
         how = "drive near" if re.search(r"\b(?:near|close)\b", text, re.IGNORECASE) else "go into"
         parts = (Part("named", f"you must not {how} {named['place']}", name) for name in robots)
         return TeamWish("bar", tuple(parts))
+
+    def _helping(self, text: str) -> TeamWish | None:
+        """One that is to help another one."""
+        if (found := self._match(self.of("helping"), text)) is None:
+            return None
+        who = self._robots.get((found["who"] or found["who2"] or "").lower(), self._hearer)
+        of = self._robots[(found["of"] or found["of2"]).lower()]
+        return TeamWish("help", (Part("named", "", who),), robot=of) if who and who != of else None
 
     def _judged(self, text: str) -> TeamWish | None:
         """A part that depends on what another one finds, which nobody waits for."""
@@ -707,7 +718,7 @@ class _Words:
         named = taken and not (taken["verb"][:3] in ("tak", "get") and taken["what"].split(" ")[0] in _THE)
         if taken and named:
             return replace(part, order=order if acts else "", alike=taken["what"])
-        return replace(part, order=order) if acts and " " in order else None
+        return replace(part, order=order) if acts and (" " in order or first in _ALONE) else None
 
 
 _OF_ONE: Final = {
@@ -716,6 +727,8 @@ _OF_ONE: Final = {
 _Piece = tuple[Who, str, str, bool, str]
 """A part as said: who, in which words, what to do, whether it comes after another one, and after whose."""
 _NAME_WORDS: Final = 3
+_ALONE: Final = ("charge", "recharge")
+"""Whole orders: nothing has to be said of where."""
 _THE: Final = ("the", "a", "an", "this", "that", "some")
 _NUMBERS: Final = {"both": 2, "two": 2, "three": 3, "four": 4, "five": 5}
 _SECOND: Final = {"is": "are", "'s": " are", "has": "have", "does": "do", "was": "were"}

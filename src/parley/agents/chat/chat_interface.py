@@ -6,6 +6,7 @@ Stop words and their kin are recognised in code before any language engine is as
 from __future__ import annotations
 
 import asyncio
+import re
 import uuid
 from collections.abc import Awaitable, Callable, Sequence
 from dataclasses import replace
@@ -71,6 +72,10 @@ __all__ = ["ChatInterface"]
 
 STAND_ON: Final = "That lets nobody but those go on whom you have stopped; {robots} still stands."
 _MISSION: Final = "mission"
+_ALL_OF_YOU: Final = re.compile(
+    r"\b(?:every(?:body|one)|(?:all|both|each) of you|you (?:all|two|three)|all (?:the )?robots)\b",
+    re.IGNORECASE,
+)
 _AGAIN: Final = {"again", "retry"}
 _REPEATING: Final = {"again", "once", "another"}
 """In "do it again", "once more", "another time"."""
@@ -360,6 +365,9 @@ class ChatInterface(Node):
             return self._presence.named_in(said.message) or targets
         if control is not None:
             own = self._own_of_all(said) if control == "start" else ()
+            if control == "clear" and _ALL_OF_YOU.search(said.message):  # "cancel all" is about steps
+                called = self._presence.called_in(said.message)
+                own = [name for name in called if self._known.state(name) != "idle"]
             return list(dict.fromkeys((*(self._presence.meant_by(said.message, control) or targets), *own)))
         return list(dict.fromkeys((*targets, *(self._called_off(said) if calls else ()))))
 
@@ -431,7 +439,8 @@ class ChatInterface(Node):
         for name in drives:
             self._say((name,), texts.CONTROL_REPLIES["start"], "response", said.id)
         if not (told.stops or lets_go or drives):
-            text = sentence("{robots} is not under way.", robots=", ".join(told.goes))
+            text = sentence(STAND_ON if stands else "{robots} is not under way.",
+                            robots=", ".join(stands or told.goes))  # fmt: skip
             self._say(hearers[:1], text, "response", said.id)
         return True
 

@@ -174,6 +174,8 @@ class TeamTalk:
             return self._swapped([part.robot for part in wish.parts], members)
         if wish.count and wish.count != len(team or self._presence.names()):
             return Mission(text=sentence("Which of us do you mean? Please call us by our names."))
+        if wish.kind == "help":
+            return self.offered_instead(wish.parts[0].robot, wish.robot)
         if wish.kind == "judged":
             return Mission(text=JUDGED, choices=(wish.about,))
         work = _Work(self, said, members, plain=plain)
@@ -189,6 +191,14 @@ class TeamTalk:
         spared = {name for part in wish.parts for name in part.without}
         out = [name for name in team or self._presence.names() if name not in {*members, *spared}]
         return replace(mission, text=together(mission.text, *filter(None, map(self._why_out, out))))
+
+    def offered_instead(self, robot: str, of: str) -> Mission:
+        """A question whether a robot shall do what another one is at."""
+        if not self.left(of):
+            return Mission(text=sentence("{robot} has nothing left to do.", robot=of))
+        words = str(sentence("Let {other} take over from {robot}", other=robot, robot=of))
+        text = sentence("Do you mean what {robot} is at? Then say “{words}”.", robot=of, words=words)
+        return Mission(text=text, choices=(words,))
 
     def _without_deed(self, wish: TeamWish) -> Mission:
         """A question what is to be done, where only places are named."""
@@ -530,13 +540,7 @@ class _Work:
         if not words:
             others = [name for name in self._members if name != part.robot and self._team.left(name)]
             if part.robot and len(others) == 1 and not self._team.left(part.robot):
-                take_over = str(
-                    sentence("Let {other} take over from {robot}", other=part.robot, robot=others[0])
-                )
-                asked = sentence(
-                    "Do you mean what {robot} is at? Then say “{words}”.", robot=others[0], words=take_over
-                )
-                return "", Mission(text=asked, choices=(take_over,))
+                return "", self._team.offered_instead(part.robot, others[0])
             busy = self._team.is_busy(target)
             text = sentence("I am at something already. Say “cancel everything” first, then say it in full.")
             return "", Mission(text=text if busy else IN_FULL)

@@ -124,7 +124,7 @@ def _doing(situation: Situation, about: str) -> str:
         return f"{_IDLE} I am {whereabouts(situation.objects, situation.robot_pose)}."
     what = step_words(left[0].label)
     if dialogue.plan == "paused":
-        return f"I stand still, as I was told. Say “carry on” and I {what}."
+        return f"I stand still{', as I was told' * bool(dialogue.stopped)}. Say “carry on” and I {what}."
     return f"This is what I am doing: {what}.{_left_time(dialogue)}"
 
 
