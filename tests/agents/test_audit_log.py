@@ -99,7 +99,13 @@ async def test_an_order_stands_in_the_log_from_the_words_to_the_end() -> None:
         order = ChatAction(queue=(GO,), targets=("Ada",), by=ENGINE, reply_to="m1")
         await r.tell(topics.CHAT_ACTION, order)
         proposal = PlanProposal(
-            id="p", target="Ada", steps=(GO,), labels=("Go to the box",), digest="d", by=ENGINE
+            id="p",
+            target="Ada",
+            steps=(GO, GO),
+            labels=("Find it", "Go to the box"),
+            lines=("Go to the box",),
+            digest="d",
+            by=ENGINE,
         )
         await r.tell(topics.PLAN, proposal)
         await r.tell(topics.PLAN, proposal)

@@ -132,6 +132,24 @@ async def test_the_next_shift_is_told_what_was_done_what_failed_what_waits_and_w
         assert later["rounds"] == []
 
 
+async def test_of_a_robot_that_asks_nobody_is_told_that_it_was_held() -> None:
+    async with logged() as rig:
+        plan(rig, "one", "paused", "running")
+        plan(rig, "one", "waiting", "held")
+        await rig.heard()
+
+        async def waits() -> list[str]:
+            return list((await rig.http.get("/api/history/handover?since=1")).json()["waits"])
+
+        assert await waits() == ["Ada cannot go on alone with: look at <one>"]
+        rig.robots.ask("Which box?", "red", "blue")
+        await rig.heard()
+        assert await waits() == ["Ada asks: Which box?"]
+        plan(rig, "one", "paused", "paused")
+        await rig.heard()
+        assert await waits() == ["Ada asks: Which box?", "Ada was held with steps left: look at <one>"]
+
+
 def test_what_has_no_end_in_the_log_is_not_said_to_have_been_ended() -> None:
     start = AuditEntry(
         number=1, unix_ms=BEGAN_MS, effect="start", robot="Ada", detail={"graph": "one"}, prev="", hash=""

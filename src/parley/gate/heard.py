@@ -333,7 +333,7 @@ def _label(step: ActionCall | PlanStep) -> str:
 
 
 def _labels_of(proposal: PlanProposal) -> list[str]:
-    return list(proposal.labels) or labels(proposal.steps)
+    return list(proposal.lines) or labels(proposal.steps)
 
 
 def _over(plan: PlanUpdate, facts: dict[str, Any], worked: dict[str, Any]) -> AuditEvent:

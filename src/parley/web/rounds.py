@@ -61,15 +61,20 @@ def waiting(state: WebState, robot: str, language: SpokenLanguage = "en") -> tup
         for proposal in state.plans.proposals.values()
         if robot in ("", proposal.robot)
     ]
+    asked = [entry for entry in state.chat.entries.values() if entry.question == "open"]
     found += [
         sentence("{robot} asks: {what}", robot=", ".join(entry.targets), what=entry.message)
-        for entry in state.chat.entries.values()
-        if entry.question == "open" and (not robot or robot in entry.targets)
+        for entry in asked
+        if not robot or robot in entry.targets
     ]
+    asking = {name for entry in asked for name in entry.targets}
     found += [
         sentence("{robot} was held with steps left: {what}", robot=plan.robot, what=_steps(left))
+        if plan.state == "paused"
+        else sentence("{robot} cannot go on alone with: {what}", robot=plan.robot, what=_steps(left))
         for plan in state.plans.views.values()
-        if plan.state in ("paused", "held") and robot in ("", plan.robot)
+        if plan.state == "paused" or (plan.state == "held" and plan.robot not in asking)
+        if robot in ("", plan.robot)
         if (left := [step for step in plan.steps if step.state not in ("finished", "skipped", "stopped")])
     ]
     found += [
