@@ -37,6 +37,21 @@ describe.skipIf(!hasBrowser)('somebody new', () => {
     await page.getByRole('group', { name: 'What you may want to say' }).getByRole('button', { name: 'Go to the dining table.' }).waitFor();
   });
 
+  it('reads what was said beside what is asked and written on a phone that lies', async () => {
+    const lying = { width: 844, height: 390 };
+    const page = await stage.open(lying);
+    await say(page, 'Go to the plant.');
+    const ask = page.getByRole('region', { name: 'David asks' });
+    await ask.getByRole('button', { name: 'plant in the kitchen' }).waitFor();
+    const height = async () => (await page.getByRole('region', { name: 'Conversation' }).boundingBox())?.height;
+    await expect.poll(height).toBeGreaterThan(lying.height / 2.5);
+    const box = await page.getByRole('textbox', { name: 'Write to David' }).boundingBox();
+    expect((box?.y ?? Number.NaN) + (box?.height ?? 0)).toBeLessThanOrEqual(lying.height);
+    expect(await barriers(page)).toEqual([]);
+    await ask.getByRole('button', { name: 'plant in the kitchen' }).tap();
+    await page.getByRole('region', { name: 'David asks' }).waitFor({ state: 'detached' });
+  });
+
   it('is called on a device whose page is closed, not on one whose page is looked at', async () => {
     const context = await stage.browser.newContext({ viewport: sizes.phone, permissions: ['notifications'] });
     const page = await context.newPage();

@@ -1,7 +1,7 @@
 /** A server of prepared answers, for the gallery and for tests of what the page makes of them. */
 
 /** What a request gets: an answer, a refusal in words, or nothing. */
-export type Answer = { json: unknown } | { refused: string } | 'never';
+export type Answer = { json: unknown } | { refused: string; status?: number } | 'never';
 
 /** Beginning of the path below /api -> answer; the longest that fits counts. What is not only read needs its whole path. */
 export type Answers = Readonly<Record<string, Answer>>;
@@ -23,6 +23,6 @@ export function network(answers: Answers, asked: Asked[] = []): typeof fetch {
     const fitting = Object.keys(answers).filter((start) => path.startsWith(start) && (method === 'GET' || start === path));
     const answer = answers[fitting.sort((a, b) => b.length - a.length)[0] ?? ''] ?? { json: {} };
     if (answer === 'never') return new Promise<Response>(() => undefined);
-    return Promise.resolve('refused' in answer ? reply({ detail: answer.refused }, 503) : reply(answer.json));
+    return Promise.resolve('refused' in answer ? reply({ detail: answer.refused }, answer.status ?? 503) : reply(answer.json));
   };
 }

@@ -95,30 +95,36 @@ export function ChatPanel() {
   );
   return (
     <Panel title={t('title')} tools={tools} flush bare={phone}>
-      <RobotTabs asked={asked} tools={phone ? find : null} />
-      {searching && <SearchBox onGo={goToEntry} onClose={closeSearch} />}
-      <History
-        key={key}
-        entries={entries}
-        asked={askedHere}
-        onChoose={choose}
-        onEdit={edit}
-        empty={<Welcome chosen={chosen} onSay={say} />}
-      />
-      {missions
-        .filter((mission) => goesOn(mission) && isOf(mission, chosen))
-        .map((mission) => {
-          const asks = mission.parts.some((part) => part.state === 'asked');
-          return (
-            <div key={mission.id} className={css.mission} data-yields={phone && !asks}>
-              <MissionCard mission={mission} isFolded={phone || !asks} />
-            </div>
-          );
-        })}
-      <Asks chosen={chosen} asked={askedHere} onChoose={choose} />
-      {maySpeak && alone && <Tour robot={alone} asks={askedHere.length > 0} />}
-      {maySpeak && <Composer chosen={chosen} answering={answer} lastSaid={lastSaid} input={input} />}
-      {maySpeak && alone && askedHere.length === 0 && <Suggestions robot={alone} entries={entries} onSay={say} />}
+      <div className={css.both}>
+        <div className={css.talk}>
+          <RobotTabs asked={asked} tools={phone ? find : null} />
+          {searching && <SearchBox onGo={goToEntry} onClose={closeSearch} />}
+          <History
+            key={key}
+            entries={entries}
+            asked={askedHere}
+            onChoose={choose}
+            onEdit={edit}
+            empty={<Welcome chosen={chosen} onSay={say} />}
+          />
+        </div>
+        <div className={css.speak}>
+          {missions
+            .filter((mission) => goesOn(mission) && isOf(mission, chosen))
+            .map((mission) => {
+              const asks = mission.parts.some((part) => part.state === 'asked');
+              return (
+                <div key={mission.id} className={css.mission} data-yields={phone && !asks}>
+                  <MissionCard mission={mission} isFolded={phone || !asks} />
+                </div>
+              );
+            })}
+          <Asks chosen={chosen} asked={askedHere} onChoose={choose} />
+          {maySpeak && alone && <Tour robot={alone} asks={askedHere.length > 0} />}
+          {maySpeak && <Composer chosen={chosen} answering={answer} lastSaid={lastSaid} input={input} />}
+          {maySpeak && alone && askedHere.length === 0 && <Suggestions robot={alone} entries={entries} onSay={say} />}
+        </div>
+      </div>
     </Panel>
   );
 }

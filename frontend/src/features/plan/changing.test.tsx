@@ -2,13 +2,14 @@ import { act, cleanup, render, screen, within } from '@testing-library/react';
 import userEvent from '@testing-library/user-event';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 
-import { network, type Asked } from '@/gallery/network';
+import { network, type Answer, type Asked } from '@/gallery/network';
 import { ability, mapInfo, plan, robot, snapshot, step } from '@/live/samples';
 import { useLive } from '@/live/store';
-import type { PlanView, ProposalView } from '@/live/types';
+import type { PlanView, ProposalView, StepView } from '@/live/types';
 
 import * as words from '@/ui/words';
 
+import { useKeptEdits } from './lasting';
 import { PlanPanel } from './plan-panel';
 
 const call = (name: string) => ({ [name]: { input_parameters: {}, output_parameters: {} } });
@@ -16,6 +17,7 @@ const named = (...names: string[]) => names.map((name) => step({ id: name, plann
 
 describe('a plan that is being changed', () => {
   const asked: Asked[] = [];
+  const answers: Record<string, Answer> = {};
   const told = (plans: readonly PlanView[], proposals: readonly ProposalView[] = []) =>
     act(() => useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada' })], plans: [...plans], proposals: [...proposals] })));
   const names = () => within(screen.getByRole('grid')).getAllByRole('row').map((row) => row.textContent?.match(/One|Two|Three|Four/)?.[0]);
@@ -23,7 +25,9 @@ describe('a plan that is being changed', () => {
 
   beforeEach(() => {
     asked.length = 0;
-    vi.stubGlobal('fetch', network({ 'robots/Ada/map': { json: mapInfo }, 'map': { json: mapInfo }, 'plans/Ada/steps': { json: {} }, 'plans/Ada/decision': { json: {} } }, asked));
+    Object.assign(answers, { 'robots/Ada/map': { json: mapInfo }, 'map': { json: mapInfo }, 'plans/Ada/steps': { json: {} }, 'plans/Ada/decision': { json: {} } });
+    vi.stubGlobal('fetch', network(answers, asked));
+    useKeptEdits.setState({}, true);
   });
 
   it('stays as far as one got over a restart and on other pages, and drops nothing that waits again', async () => {
@@ -78,5 +82,40 @@ describe('a plan that is being changed', () => {
     expect(names()).toEqual(['One', 'Two']);
     await user.click(screen.getByRole('button', { name: 'Begin the changed plan' }));
     expect(puts()).toMatchObject([{ id: 'p', digest: 'first', decision: 'edit', steps: ['One', 'Two'].map(call) }]);
+  });
+
+  it('is kept when somebody else was faster, put into what they made of the plan, and saved with one more press', async () => {
+    const [one, two, three, four] = named('One', 'Two', 'Three', 'Four') as [StepView, StepView, StepView, StepView];
+    told([plan({ robot: 'Ada', revision: 4, state: 'running', steps: [one, two, three] })]);
+    render(<PlanPanel />);
+    const user = userEvent.setup();
+    await user.click(screen.getByRole('button', { name: 'Change' }));
+    await user.click(screen.getByRole('button', { name: 'Move “Three” up' }));
+    answers['plans/Ada/steps'] = { refused: 'The plan has changed meanwhile.', status: 409 };
+    await user.click(screen.getByRole('button', { name: 'Save' }));
+    told([plan({ robot: 'Ada', revision: 5, state: 'running', steps: [two, four, three] })]); // heard after the no
+    await vi.waitFor(() => expect(names()).toEqual(['Three', 'Two', 'Four']));
+    answers['plans/Ada/steps'] = { json: {} };
+    await user.click(screen.getByRole('button', { name: 'Save' }));
+    expect(puts().at(-1)).toEqual({ steps: ['Three', 'Two', 'Four'].map(call), revision: 5 });
+    expect(screen.queryByRole('grid')).toBeNull();
+  });
+
+  it('is kept when somebody else says yes to it meanwhile, and given up when they say no', async () => {
+    const waits: ProposalView = { id: 'p', robot: 'Ada', message: '', changes: [], steps: named('One', 'Two', 'Three'), digest: 'd', by: null, why: '' };
+    const idle = plan({ robot: 'Ada', state: 'awaiting_approval', steps: [] });
+    const user = userEvent.setup();
+    render(<PlanPanel />);
+    for (const isYes of [true, false]) {
+      told([idle], [waits]);
+      await user.click(screen.getByRole('button', { name: 'Change' }));
+      await user.click(screen.getByRole('button', { name: 'Remove “Three”' }));
+      const [one, ...rest] = named('One', 'Two', 'Three') as [StepView, ...StepView[]];
+      act(() => useLive.getState().takeChanges([{ kind: 'proposal_gone', seq: 1, id: 'p' }]));
+      if (isYes) told([plan({ robot: 'Ada', revision: 7, state: 'running', steps: [{ ...one, state: 'running' }, ...rest] })]);
+      if (isYes) await vi.waitFor(() => expect(names()).toEqual(['Two']));
+      else expect(screen.queryByRole('grid')).toBeNull();
+      if (isYes) await user.click(screen.getByRole('button', { name: 'Cancel' }));
+    }
   });
 });

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 
 import { ability, step } from '@/live/samples';
 
-import { addables, callsOf, editable, inputsOf, moved, nameOfAction, newStep, nudged, pendingSteps, setInput, sinceThen, toDrafts, type DraftStep } from './editing';
+import { addables, callsOf, editable, inputsOf, moved, nameOfAction, newStep, nudged, pendingSteps, rebased, setInput, sinceThen, toDrafts, type DraftStep } from './editing';
 
 const toDraft = (one: ReturnType<typeof step>) => toDrafts([one])[0] as DraftStep;
 const drafts = ['a', 'b', 'c'].map((id) => toDraft(step({ id })));
@@ -25,6 +25,19 @@ describe('changing a plan', () => {
     expect(sinceThen(then, named('abcd', 'new ')).isSame).toBe(false);
     const later = sinceThen(then, [{ ...first, state: 'finished' }, { ...(rest[0] ?? first), state: 'running' }, ...rest.slice(1)]);
     expect([later.isSame, later.again, later.begun]).toEqual([true, [], ['b']]);
+  });
+
+  it('takes what one changed over into what others made of the plan', () => {
+    const named = (ids: string) => [...ids].map((id) => step({ id, planned: id, label: id }));
+    const mine = (order: string) => [...order].map((id) => toDrafts(named('abcd')).find((one) => one.id === id) as DraftStep);
+    expect(ids(rebased(named('abcd'), mine('abdc'), named('abcd')))).toBe('abdc');
+    expect(ids(rebased(named('abcd'), mine('dbc'), named('axbcd')))).toBe('xdbc'); // a is out: behind it is first
+    expect(ids(rebased(named('abcd'), mine('abdc'), named('acdx')))).toBe('adcx');
+    expect(ids(rebased(named('abcd'), [...mine('ba'), { ...(mine('c')[0] as DraftStep), id: 'new' }], named('bcd')))).toBe('bnew');
+    const otherwise = (id: string, value: string) => step({ id, planned: id, call: { Go: value } as never });
+    const [theirs] = rebased([otherwise('a', 'box')], [toDraft(otherwise('a', 'box'))], [otherwise('a', 'door')]);
+    const [own] = rebased([otherwise('a', 'box')], [toDraft(otherwise('a', 'sofa'))], [otherwise('a', 'door')]);
+    expect([theirs?.call, own?.call]).toEqual([{ Go: 'door' }, { Go: 'sofa' }]);
   });
 
   it('moves steps before and behind others', () => {

@@ -20,11 +20,8 @@ export interface DraftStep {
 /** Steps that may still be changed: those that have not begun. */
 export const pendingSteps = (steps: readonly StepView[]) => steps.filter((step) => step.state === 'queued');
 
-/**
- * Which of the steps that could be changed have begun since, which of the others that had begun then wait again, as after a
- * restart, and whether nothing else is otherwise.
- */
-export function sinceThen(then: readonly StepView[], now: readonly StepView[]) {
+/** Of the steps of now what each was then. */
+function paired(then: readonly StepView[], now: readonly StepView[]): ReadonlyMap<StepView, StepView> {
   const known = new Map<StepView, StepView>();
   const pair = (isSame: (one: StepView, other: StepView) => boolean) => {
     const left = new Set(then.filter((one) => ![...known.values()].includes(one)));
@@ -36,6 +33,15 @@ export function sinceThen(then: readonly StepView[], now: readonly StepView[]) {
   };
   pair((one, other) => (one.planned || one.id) === (other.planned || other.id));
   pair((one, other) => one.action === other.action && one.label === other.label); // after a restart they have other ids
+  return known;
+}
+
+/**
+ * Which of the steps that could be changed have begun since, which of the others that had begun then wait again, as after a
+ * restart, and whether nothing else is otherwise.
+ */
+export function sinceThen(then: readonly StepView[], now: readonly StepView[]) {
+  const known = paired(then, now);
   const isBegun = (step: StepView) => now.some((one) => known.get(one) === step && one.state !== 'queued');
   const [begun, left] = [pendingSteps(then).filter(isBegun), pendingSteps(then).filter((step) => !isBegun(step))];
   const again = pendingSteps(now).filter((one) => (known.get(one)?.state ?? 'queued') !== 'queued');
@@ -45,6 +51,28 @@ export function sinceThen(then: readonly StepView[], now: readonly StepView[]) {
     again,
     isSame: left.length === still.length && still.every((step, at) => known.get(step) === left[at]),
   };
+}
+
+/**
+ * What one has made of the steps of then, taken over into those of now: what others took out or began is out, what they added
+ * stands behind what they put it behind, what they changed is so unless one has changed it oneself.
+ */
+export function rebased(then: readonly StepView[], mine: readonly DraftStep[], now: readonly StepView[]): readonly DraftStep[] {
+  const known = new Map([...paired(then, now)].map(([is, was]) => [is.id, was.id]));
+  const waited = new Map(toDrafts(pendingSteps(then)).map((step) => [step.id, step]));
+  const waits = toDrafts(pendingSteps(now));
+  const left = mine.flatMap((step) => {
+    const was = waited.get(step.id);
+    if (!was) return step; // a new one
+    const is = waits.find(({ id }) => known.get(id) === step.id);
+    if (!is) return [];
+    return JSON.stringify(callsOf([was])) === JSON.stringify(callsOf([step])) ? is : { ...step, id: is.id };
+  });
+  return waits.reduce<readonly DraftStep[]>((all, step, at) => {
+    if (waited.has(known.get(step.id) ?? '')) return all;
+    const ahead = waits.slice(0, at).map(({ id }) => id);
+    return all.toSpliced(all.findLastIndex(({ id }) => ahead.includes(id)) + 1, 0, step);
+  }, left);
 }
 
 /** Without those that have begun; the others stay what they are. */

@@ -2,6 +2,10 @@
 import { useState } from 'react';
 import { create } from 'zustand';
 
+import type { PlanView, StepView } from '@/live/types';
+
+import { pendingSteps, rebased, toDrafts, type DraftStep } from './editing';
+
 export const useKeptEdits = create<Readonly<Record<string, unknown>>>()(() => ({}));
 
 /** As `useState`, under a name. */
@@ -11,8 +15,20 @@ export function useLasting<T>(name: string, initial: T): [T, (value: T) => void]
   return [kept === undefined ? first : (kept as T), (value) => useKeptEdits.setState({ [name]: value })];
 }
 
-/** Forget all names that begin so. */
-export function forget(beginning: string): void {
-  const left = Object.entries(useKeptEdits.getState()).filter(([name]) => !name.startsWith(beginning));
+/** What is kept of the change of a robot's plan: which plan that was, and under what name all else of it. */
+export const baseOf = (robot: string) => `${robot} base`;
+export const editId = (robot: string, plan: PlanView | null) => `${robot} ${plan?.revision ?? ''}`;
+
+/** Take what was made of steps under one name over into a robot's plan as it is now, and open that to be changed on. */
+export function carryOver(from: string, then: readonly StepView[], plan: PlanView): void {
+  const mine = useKeptEdits.getState()[`${from} steps`] ?? toDrafts(pendingSteps(then));
+  const steps = rebased(then, mine as readonly DraftStep[], plan.steps);
+  forget(from);
+  useKeptEdits.setState({ [`${editId(plan.robot, plan)} steps`]: steps, [baseOf(plan.robot)]: plan });
+}
+
+/** Forget all that is kept under a name. */
+export function forget(id: string): void {
+  const left = Object.entries(useKeptEdits.getState()).filter(([name]) => !name.startsWith(`${id} `));
   useKeptEdits.setState(Object.fromEntries(left), true);
 }

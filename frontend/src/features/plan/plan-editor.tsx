@@ -26,7 +26,7 @@ interface Props {
   /** By id those that have begun since: they can be changed no more. */
   begun?: readonly string[];
   saveLabel: string;
-  /** Whether it is done with. */
+  /** Whether it is done with, and what is kept of it can be forgotten. */
   onSave: (calls: readonly ActionCall[]) => Promise<boolean>;
   onCancel: () => void;
 }
@@ -77,7 +77,7 @@ export const PlanEditor = memo(function PlanEditor({ id, robot, steps: initial, 
   const add = (name: string) => {
     const wanted = choices.find((one) => one.action.name === name);
     if (!wanted) return;
-    setSteps([...steps, newStep(wanted, `added-${added}`)]);
+    setSteps([...steps, newStep(wanted, `added to ${id} ${added}`)]);
     setAdded(added + 1);
   };
 

@@ -18,7 +18,7 @@ import { goesOn, isOf } from '@/live/missions';
 import { PlanBar } from './plan-bar';
 import { PlanEditor } from './plan-editor';
 import { isEarlier, linesOf, type Line } from '@/live/lines';
-import { useLasting } from './lasting';
+import { baseOf, editId, useLasting } from './lasting';
 import { withReceived } from './parameters';
 import css from './plan-panel.module.css';
 import { PolicyChoice } from '@/ui/policy-choice';
@@ -26,7 +26,7 @@ import { UnattendedChoice } from '@/ui/unattended-choice';
 import { ProposalCard } from './proposal-card';
 import { pickPlan, proposalsOf, shownPlans } from './shown-plans';
 import { StepCard } from './step-card';
-import { useRemoving, useSaving } from './use-saving';
+import { usePassed, useRemoving, useSaving } from './use-saving';
 
 const BUSY: readonly StepState[] = ['running', 'waiting', 'failed', 'paused', 'stopping'];
 
@@ -72,7 +72,7 @@ const partKey = (plan: PlanView) => (plan.kind === 'plan' ? plan.robot : planKey
 function PlanOf({ plan }: { plan: PlanView }) {
   const { t } = useTranslation(['plan', 'common']);
   const proposals = useWorld((world) => world.proposals);
-  const [editing, setEditing] = useLasting<PlanView | null>(`${partKey(plan)} base`, null);
+  const [editing, setEditing] = useLasting<PlanView | null>(baseOf(partKey(plan)), null);
   const waiting = plan.kind === 'plan' ? proposalsOf(proposals, plan.robot) : [];
   const pending = pendingSteps(plan.steps);
   const { lines, current, over } = useMemo(() => divided(plan), [plan]);
@@ -80,15 +80,18 @@ function PlanOf({ plan }: { plan: PlanView }) {
   const { again, isSame } = since;
   const begun = useSame(since.begun);
   const changed = editing ? pending.filter((step) => !again.includes(step)).map((step) => step.id) : [];
+  const id = editId(partKey(plan), editing);
   const close = useStable(() => setEditing(null));
   const save = useSaving();
+  const passed = usePassed();
   const first = useMemo(() => toDrafts(pendingSteps(editing?.steps ?? [])), [editing]);
   const saveAll = useStable(async (calls: readonly ActionCall[]) => {
     const all = [...again.map((step) => step.call ?? {}), ...calls];
     const revision = editing && !isSame ? editing.revision : plan.revision;
-    const outcome = await save(plan.robot, () => putSteps(plan.robot, all, revision));
-    if (outcome !== 'refused') close();
-    return outcome !== 'refused';
+    const outcome = await save(plan.robot, () => putSteps(plan.robot, all, revision), undefined, null);
+    if (outcome === 'saved') close();
+    if (outcome === 'conflict' && editing) await passed(id, editing, revision);
+    return outcome === 'saved';
   });
   const remove = useRemoving(plan);
   const steps = useCurrentInView(current - over, editing !== null);
@@ -103,7 +106,7 @@ function PlanOf({ plan }: { plan: PlanView }) {
         {editing && (
           <PlanEditor
             key={editing.revision}
-            id={`${partKey(plan)} ${editing.revision}`}
+            id={id}
             robot={plan.robot}
             steps={first}
             before={lines.filter(({ step }) => !changed.includes(step.id)).length}

@@ -9,19 +9,20 @@ import { useToasts } from '@/state/toasts';
 import { Button } from '@/ui/button';
 import { quoted, sentence } from '@/ui/words';
 
-import { toDrafts } from './editing';
+import { pendingSteps, toDrafts } from './editing';
 import { linesOf } from '@/live/lines';
-import { useLasting } from './lasting';
+import { carryOver, useLasting } from './lasting';
 import { PlanEditor } from './plan-editor';
 import css from './proposal-card.module.css';
 import { StepCard } from './step-card';
+import { heard, ownPlan } from './use-saving';
 
 /** Steps that wait for a yes. */
 export function ProposalCard({ proposal }: { proposal: ProposalView }) {
   const { t } = useTranslation('plan');
   // What is being changed is what was shown then: should it become something else, it is shown anew and asked again.
   const [edited, setEdited] = useLasting<ProposalView | null>(`${proposal.id} shown`, null);
-  const ownRef = useNoticeWhenGone(proposal.id, edited !== null);
+  const ownRef = useNoticeWhenGone(proposal.id, edited);
   const [busy, setBusy] = useState(false);
   const decide = async (decision: Omit<Decision, 'id' | 'digest'>) => {
     setBusy(true);
@@ -82,15 +83,28 @@ export function ProposalCard({ proposal }: { proposal: ProposalView }) {
 }
 
 /** Says so where somebody else decides about what is being changed here; true while it is decided here. */
-function useNoticeWhenGone(id: string, editing: boolean) {
+function useNoticeWhenGone(id: string, edited: ProposalView | null) {
   const { t } = useTranslation('plan');
   const ownRef = useRef(false);
   useEffect(() => {
-    if (!editing) return;
+    if (!edited) return;
+    const show = useToasts.getState().show;
+    const decided = async () => {
+      await heard(() => begunOf(edited) !== undefined);
+      const plan = begunOf(edited);
+      if (plan) carryOver(id, edited.steps, plan);
+      show({ tone: 'error', message: t(plan ? 'conflictKept' : 'decidedMeanwhile'), stands: 'deed' });
+    };
     return useLive.subscribe(({ world }, before) => {
-      if (ownRef.current || id in world.proposals || !(id in before.world.proposals)) return;
-      useToasts.getState().show({ tone: 'error', message: t('decidedMeanwhile'), stands: 'deed' });
+      if (!ownRef.current && !(id in world.proposals) && id in before.world.proposals) void decided();
     });
-  }, [id, editing, t]);
+  }, [id, edited, t]);
   return ownRef;
+}
+
+/** The plan that has become of what was proposed, while something of it waits its turn. */
+function begunOf({ robot, steps }: ProposalView) {
+  const plan = ownPlan(robot);
+  const labels = steps.map((step) => step.label);
+  return plan && pendingSteps(plan.steps).some((step) => labels.includes(step.label)) ? plan : undefined;
 }

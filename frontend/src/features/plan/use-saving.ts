@@ -8,6 +8,7 @@ import { untilReached, useToasts } from '@/state/toasts';
 import { quoted, sentence } from '@/ui/words';
 
 import { pendingSteps } from './editing';
+import { baseOf, carryOver, useKeptEdits } from './lasting';
 import { putBack } from './putting-back';
 import type { Line } from '@/live/lines';
 
@@ -17,11 +18,17 @@ type Outcome = 'saved' | 'refused' | 'conflict';
 const TRIES = 3;
 const MOVED_ON_MS = 2000;
 
-const ownPlan = (robot: string) =>
+export const ownPlan = (robot: string) =>
   Object.values(useLive.getState().world.plans).find((one) => one.robot === robot && one.kind === 'plan');
 
 const isDone = (robot: string, meant: StepView | undefined) =>
   Boolean(meant?.planned) && ownPlan(robot)?.steps.some((step) => step.planned === meant?.planned && step.state === 'finished');
+
+/** As long as there is something to change. */
+function whileItGoesOn(robot: string): () => boolean {
+  const name = ownPlan(robot)?.graph_name;
+  return () => ownPlan(robot)?.graph_name === name && ownPlan(robot)?.state !== 'ended';
+}
 
 const isUnreached = (error: unknown) => error instanceof ApiError && error.status === 0;
 const isConflict = (error: unknown) => error instanceof ApiError && error.status === 409;
@@ -30,7 +37,7 @@ const isConflict = (error: unknown) => error instanceof ApiError && error.status
 export function useSaving() {
   const { t } = useTranslation('plan');
   const show = useToasts((state) => state.show);
-  return async (robot: string, save: () => Promise<unknown>, said = t('saved')): Promise<Outcome> => {
+  return async (robot: string, save: () => Promise<unknown>, said = t('saved'), passed: string | null = t('conflict')): Promise<Outcome> => {
     useToasts.getState().anew();
     try {
       await save();
@@ -38,12 +45,26 @@ export function useSaving() {
       return 'saved';
     } catch (error) {
       const conflict = isConflict(error);
-      const name = ownPlan(robot)?.graph_name;
-      const stands = () => ownPlan(robot)?.graph_name === name && ownPlan(robot)?.state !== 'ended';
+      const stands = whileItGoesOn(robot);
       const otherwise = isUnreached(error) ? untilReached() : 'deed';
-      show({ tone: 'error', message: conflict ? t('conflict') : explain(error), stands: conflict ? stands : otherwise });
+      const message = conflict ? passed : explain(error);
+      if (message) show({ tone: 'error', message, stands: conflict ? stands : otherwise });
       return conflict ? 'conflict' : 'refused';
     }
+  };
+}
+
+/** What somebody was changing under a name when the plan moved on is taken over into the plan as it is then, if that goes on. */
+export function usePassed() {
+  const { t } = useTranslation('plan');
+  const show = useToasts((state) => state.show);
+  return async (from: string, then: PlanView, revision: number) => {
+    await movedOn(then.robot, revision);
+    const plan = ownPlan(then.robot);
+    const goesOn = plan !== undefined && plan.state !== 'ended';
+    if (goesOn) carryOver(from, then.steps, plan);
+    else useKeptEdits.setState({ [baseOf(then.robot)]: null });
+    show({ tone: 'error', message: t(goesOn ? 'conflictKept' : 'conflict'), stands: goesOn ? whileItGoesOn(then.robot) : 'deed' });
   };
 }
 
@@ -73,8 +94,10 @@ export function usePutBack(plan: PlanView) {
 }
 
 /** Heard, or not in time, that a plan is another by now. */
-async function movedOn(robot: string, revision: number): Promise<void> {
-  const isPast = () => ownPlan(robot)?.revision !== revision;
+const movedOn = (robot: string, revision: number) => heard(() => ownPlan(robot)?.revision !== revision);
+
+/** Something is so, or did not become so in time. */
+export async function heard(isPast: () => boolean): Promise<void> {
   if (isPast()) return;
   await new Promise<void>((settle) => {
     const timer = setTimeout(settle, MOVED_ON_MS);
