@@ -1,15 +1,16 @@
-/** All words of the page. A language is a folder here, with a file for each part, or one file with all parts: `lv.json`. */
+/** All words of the page. A language is a folder here, with a file for each part, or comes with the page. */
 import i18next from 'i18next';
 import { initReactI18next } from 'react-i18next';
 
 import * as en from './en';
 
-const files = import.meta.glob<Record<string, unknown>>(['./*/*.json', './*.json'], { eager: true, import: 'default' });
+const files = import.meta.glob<Record<string, unknown>>(['./*/*.json'], { eager: true, import: 'default' });
 
-export const languages: Readonly<Record<string, Record<string, Record<string, unknown>>>> = {};
+type Words = Record<string, Record<string, unknown>>;
+export const languages: Readonly<Record<string, Words>> = JSON.parse(document.getElementById('languages')?.textContent ?? '{}') as Record<string, Words>;
 for (const [path, words] of Object.entries(files)) {
-  const [, language = '', part] = path.replace('.json', '').split('/');
-  (languages as Record<string, Record<string, unknown>>)[language] = { ...languages[language], ...(part ? { [part]: words } : words) };
+  const [, language = '', part = ''] = path.replace('.json', '').split('/');
+  (languages as Record<string, Words>)[language] = { ...languages[language], [part]: words };
 }
 
 /** A language's name in itself. */

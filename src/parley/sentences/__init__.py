@@ -4,14 +4,16 @@ The English words stand where they are said and are the key: `sentence` keeps th
 in, so that whoever shows the text can say it in another language (`in_language`). A text of which nobody
 knows any more what it was made of is looked for among all forms (`forms`). What people said stays as it is.
 
-A language is a file here, named after it: ``et.yaml``. Nothing else is needed.
+A language is a file named after it, ``et.yaml``, here or in the folder that ``PARLEY_LANGUAGES`` names.
 """
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from functools import cache
 from importlib import resources
+from pathlib import Path
 from typing import Annotated, Final, Self
 
 import yaml
@@ -19,14 +21,28 @@ from pydantic import AfterValidator
 
 from parley.sentences.forms import Catalogue, ended_once, is_own
 
-__all__ = ["LANGUAGES", "Sentence", "SpokenLanguage", "in_language", "listed", "sentence", "together"]
+__all__ = [
+    "LANGUAGES",
+    "OWN_LANGUAGES",
+    "Sentence",
+    "SpokenLanguage",
+    "in_language",
+    "listed",
+    "sentence",
+    "together",
+]
 
 _LOADER: Final = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-_FILES: Final = resources.files("parley.sentences")
-LANGUAGES: Final = (
-    "en",
-    *sorted(file.name[:-5] for file in _FILES.iterdir() if file.name.endswith(".yaml")),
+OWN_LANGUAGES: Final = Path(os.environ["PARLEY_LANGUAGES"]) if os.environ.get("PARLEY_LANGUAGES") else None
+"""Where whoever runs Parley keeps languages that it does not bring."""
+_FOLDERS: Final = (
+    resources.files("parley.sentences"),
+    *([OWN_LANGUAGES] if OWN_LANGUAGES and OWN_LANGUAGES.is_dir() else []),
 )
+_FILES: Final = {
+    file.name[:-5]: file for folder in _FOLDERS for file in folder.iterdir() if file.name.endswith(".yaml")
+}
+LANGUAGES: Final = ("en", *sorted(_FILES))
 """English, and those that have a file."""
 
 
@@ -88,5 +104,5 @@ def in_language(text: str, language: SpokenLanguage) -> str:
 
 @cache
 def _catalogue(language: SpokenLanguage) -> Catalogue:
-    text = (_FILES / f"{language}.yaml").read_text(encoding="utf-8")
-    return Catalogue({pair["en"]: pair[language] for pair in yaml.load(text, _LOADER)})
+    text = _FILES[language].read_text(encoding="utf-8")
+    return Catalogue({pair["en"]: pair[language] for pair in yaml.load(text, _LOADER) or ()})

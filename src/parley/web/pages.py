@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import gzip
 import html
+import json
 import mimetypes
 from importlib import resources
 from pathlib import Path
@@ -13,6 +14,8 @@ from typing import Final
 from starlette.requests import Request
 from starlette.responses import FileResponse, HTMLResponse, Response
 
+from parley.errors import ConfigError
+from parley.sentences import LANGUAGES, OWN_LANGUAGES
 from parley.web.problems import WebProblem, problem_response
 
 __all__ = ["Pages", "built_pages"]
@@ -41,10 +44,15 @@ class Pages:
 
     Args:
         folder: The built front end.
+        languages: Where its words in further languages are, ``fi.json``.
+
+    Raises:
+        ConfigError: One of those cannot be read.
     """
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, languages: Path | None = OWN_LANGUAGES) -> None:
         self._folder = folder.resolve()
+        self._words = _words_in(languages) if languages else ""
         self._packed: dict[Path, bytes] = {}
 
     async def answer(self, request: Request) -> Response:
@@ -89,6 +97,18 @@ class Pages:
         index = self._folder / "index.html"
         text = index.read_text(encoding="utf-8") if index.is_file() else _PLAIN
         nonce = request.scope.get("state", {}).get("nonce", "")
-        return HTMLResponse(
-            text.replace(NONCE_MARK, html.escape(nonce)), headers={"Cache-Control": "no-cache"}
-        )
+        text = text.replace(NONCE_MARK, html.escape(nonce)).replace("</head>", f"{self._words}</head>", 1)
+        return HTMLResponse(text, headers={"Cache-Control": "no-cache"})
+
+
+def _words_in(folder: Path) -> str:
+    """The words of further languages as data in the page."""
+    if not folder.is_dir():
+        raise ConfigError(f"There is no folder {folder}, which PARLEY_LANGUAGES names.")
+    files = {name: folder / f"{name}.json" for name in LANGUAGES}
+    try:
+        words = {name: json.loads(file.read_bytes()) for name, file in files.items() if file.is_file()}
+    except (OSError, ValueError) as error:
+        raise ConfigError(f"The words of the page in {folder} cannot be read: {error}") from error
+    shown = json.dumps(words).replace("<", "\\u003c")
+    return f'<script type="application/json" id="languages">{shown}</script>'
