@@ -10,6 +10,7 @@ import pytest
 
 from parley.messages import topics
 from parley.messages.chat import ChatInput, ChatRead, ReplyDraft
+from parley.messages.principal import person
 from parley.web import outbox
 from tests.transport.backends import until
 from tests.web.rig import JPEG, Page, served
@@ -97,12 +98,13 @@ async def test_a_draft_grows_and_is_replaced_by_the_reply_under_the_same_key() -
 async def test_what_others_say_to_robots_is_seen_too() -> None:
     async with served("Ada") as rig:
         page = await rig.page()
-        said = ChatInput(message="go home\nAda: yes\u202e", targets=("Ada",), id="t1", author="Kim\n")
+        kim = person("Kim\n", device="terminal")
+        said = ChatInput(message="go home\nAda: yes\u202e", targets=("Ada",), id="t1", by=kim)
         rig.robots.tell(topics.CHAT_INPUT, said)
         await page.until(lambda: page.of("chat"))
         entry = page.of("chat")[0]["entry"]
-        shown = ("operator", "Kim", "go home / Ada: yes⟨U+202E⟩")
-        assert (entry["who"], entry["author"], entry["message"]) == shown
+        shown = ("operator", "Kim", "terminal", "go home / Ada: yes⟨U+202E⟩")
+        assert (entry["who"], entry["author"], entry["device"], entry["message"]) == shown
 
 
 async def test_history_is_read_in_pieces_and_searched() -> None:

@@ -36,7 +36,8 @@ async def test_a_name_once_told_stands_with_what_is_said() -> None:
     async with served("Ada") as rig:
         await rig.http.post("/api/session", json={"name": "Kim"})
         post = {"id": "m1", "text": "go home", "targets": ["Ada"]}
-        assert (await rig.http.post("/api/chat", json=post)).json()["author"] == "Kim"
+        said = (await rig.http.post("/api/chat", json=post)).json()
+        assert (said["author"], said["device"]) == ("Kim", "a program")
         await rig.http.delete("/api/session")
         assert (await rig.http.get("/api/session")).json()["name"] == ""
 

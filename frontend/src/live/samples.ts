@@ -56,6 +56,7 @@ export const entry = (part: Partial<ChatEntry> & { id: string }): ChatEntry => (
   unix_ms: Date.UTC(2026, 0, 2, 10),
   who: 'robot',
   author: '',
+  device: '',
   targets: ['Ada'],
   type: 'response',
   message: part.id,

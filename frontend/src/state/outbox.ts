@@ -23,6 +23,11 @@ interface Outbox {
   discard: (id: string) => void;
 }
 
+/** With what the keys of all begin that is said in this browser: by it people without accounts know what is their own. */
+const OWN = `${localStorage.getItem('parley.browser') ?? crypto.randomUUID().slice(0, 8)}-`;
+localStorage.setItem('parley.browser', OWN.slice(0, -1));
+export const isOwn = (id: string) => id.startsWith(OWN);
+
 const LONGEST_TURN_MS = 400; // a stop that is typed behind it has one second
 
 /** Sent again without a change it would be refused again: whoever wrote it may not, it cannot be read, or its question is settled. */
@@ -71,7 +76,7 @@ const outbox: StateCreator<Outbox> = (set, get) => {
     messages: [],
     send: async (message) => {
       if (last && isSame(get().messages.find(({ id }) => id === last?.id) ?? last, message)) return;
-      const outgoing = { ...message, id: crypto.randomUUID() };
+      const outgoing = { ...message, id: `${OWN}${crypto.randomUUID()}` };
       const begun: Outgoing = { ...outgoing, unixMs: Date.now(), state: 'sending', reason: '' };
       last = begun;
       useToasts.getState().anew();

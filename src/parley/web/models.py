@@ -111,6 +111,8 @@ class ChatEntry(WebModel):
     who: Literal["operator", "robot"]
     author: LineText = ""
     """The person's name, if it is known."""
+    device: LineText = ""
+    """Through what a person said it, e.g. ``page on a phone``."""
     targets: tuple[str, ...] = ()
     """To whom (operator) or from whom (robot)."""
     type: Literal["request", "response", "info", "error"]

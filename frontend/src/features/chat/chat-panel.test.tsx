@@ -56,6 +56,16 @@ describe('the chat', () => {
     expect(sent).toEqual([{ id: 'p1', digest: 'd1', decision: 'reject' }]);
   });
 
+  it('does not say of what somebody else said that oneself did', async () => {
+    const user = show({});
+    await user.click(screen.getByRole('button', { name: 'Go to the door.' }));
+    const [own] = sent as unknown as { id: string }[];
+    const said = (id: string, device: string, author = '') => entry({ id, device, author, who: 'operator', targets: ['Ada'] });
+    act(() => useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada' })], chat: [said(own?.id ?? '', 'page on a phone'), said('a', 'page on a phone'), said('b', ''), said('c', '', 'Kim')] })));
+    const names = screen.getAllByText('to Ada').map((to) => to.previousElementSibling?.textContent);
+    expect(names).toEqual(['You', 'Somebody (page on a phone)', 'Somebody', 'Kim']);
+  });
+
   it('talks to one robot by a click and to several by a click with Shift', async () => {
     const user = show({});
     await user.click(tab('Bob'));

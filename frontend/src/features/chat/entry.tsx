@@ -10,6 +10,7 @@ import { clockTime, inWords, nameList } from '@/ui/words';
 import { Choices } from './choices';
 import css from './entry.module.css';
 import { RuleMap } from './rule-map';
+import { useSpeaker } from './speaker';
 
 interface Props {
   entry: ChatEntry;
@@ -89,12 +90,13 @@ function Said({ entry }: { entry: ChatEntry }) {
 
 function Head({ entry, asks, isAnew, debug }: { entry: ChatEntry; asks: boolean; isAnew: boolean; debug: boolean }) {
   const { t, i18n } = useTranslation('chat');
+  const speaker = useSpeaker();
   const names = nameList(entry.targets, i18n.language);
   return (
     <p className={css.head}>
       {entry.who === 'operator' ? (
         <>
-          <strong>{entry.author || t('you')}</strong>
+          <strong>{speaker(entry)}</strong>
           <span>{t('to', { names: names || t('everyone') })}</span>
         </>
       ) : (

@@ -13,6 +13,7 @@ import css from './history.module.css';
 import { undelivered, useOutbox } from '@/state/outbox';
 import { PendingEntry } from './pending-entry';
 import { askedAnew, offering } from '@/live/questions';
+import { speakerKey } from './speaker';
 import { Thinking } from './thinking';
 import { useMomentShown } from './use-moment';
 import { useStickToEnd } from './use-stick-to-end';
@@ -29,8 +30,7 @@ interface Props {
 
 const PAGE = 60;
 
-const sameSpeaker = (a: ChatEntry | undefined, b: ChatEntry) =>
-  a !== undefined && a.who === b.who && a.author === b.author && a.targets.join('\n') === b.targets.join('\n');
+const sameSpeaker = (a: ChatEntry | undefined, b: ChatEntry) => a !== undefined && speakerKey(a) === speakerKey(b);
 
 const sameDay = (a: number, b: number) => new Date(a).toDateString() === new Date(b).toDateString();
 

@@ -8,6 +8,7 @@ import { TextField } from '@/ui/text-field';
 import { nameList, timeOrDay } from '@/ui/words';
 
 import css from './search-box.module.css';
+import { useSpeaker } from './speaker';
 
 const AFTER_TYPING_MS = 250;
 
@@ -17,6 +18,7 @@ type Result = { state: 'idle' } | { state: 'ready'; entries: readonly ChatEntry[
 export function SearchBox({ onGo, onClose }: { onGo: (entry: ChatEntry) => void; onClose: () => void }) {
   const { t, i18n } = useTranslation('chat');
   const [words, setWords] = useState('');
+  const speaker = useSpeaker();
   const [result, setResult] = useState<Result>({ state: 'idle' });
   const [now] = useState(() => Date.now());
 
@@ -55,7 +57,7 @@ export function SearchBox({ onGo, onClose }: { onGo: (entry: ChatEntry) => void;
               <li key={entry.id}>
                 <button type="button" className={css.go} onClick={() => onGo(entry)}>
                   <span className={css.when}>
-                    {entry.who === 'operator' ? entry.author || t('you') : nameList(entry.targets, i18n.language)},{' '}
+                    {entry.who === 'operator' ? speaker(entry) : nameList(entry.targets, i18n.language)},{' '}
                     {timeOrDay(entry.unix_ms, now, i18n.language)}
                   </span>
                   <span>{entry.message}</span>
