@@ -158,11 +158,9 @@ describe.skipIf(!hasBrowser)('an operator with a plan', () => {
     const queued = steps(two).locator('li[data-state="queued"]');
     const count = await queued.count();
     await one.getByRole('button', { name: 'Change', exact: true }).click();
-    await queued.last().getByRole('button', { name: /^Remove/ }).click();
-    await expect.poll(() => queued.count(), { timeout: PATIENCE_MS }).toBe(count - 1);
     await one.getByRole('row').first().getByRole('button', { name: /^Remove/ }).click();
-    await one.getByRole('button', { name: 'Save' }).click();
-    await one.getByText(/Your changes are kept, in the newest plan/).waitFor();
+    await queued.last().getByRole('button', { name: /^Remove/ }).click();
+    await one.getByText(/What you changed is kept, in the newest plan/).waitFor();
     await expect.poll(() => one.getByRole('grid', { name: 'Change the plan' }).getByRole('row').count(), { timeout: PATIENCE_MS }).toBe(count - 2);
     await one.getByRole('button', { name: 'Save' }).click();
     await expect.poll(() => queued.count(), { timeout: PATIENCE_MS }).toBe(count - 2);

@@ -15,6 +15,8 @@ import { PlanPanel } from './plan-panel';
 const call = (name: string) => ({ [name]: { input_parameters: {}, output_parameters: {} } });
 const named = (...names: string[]) => names.map((name) => step({ id: name, planned: name, label: name, action: name, call: call(name) }));
 
+vi.setConfig({ testTimeout: 20_000 });
+
 describe('a plan that is being changed', () => {
   const asked: Asked[] = [];
   const answers: Record<string, Answer> = {};
@@ -96,9 +98,29 @@ describe('a plan that is being changed', () => {
     told([plan({ robot: 'Ada', revision: 5, state: 'running', steps: [two, four, three] })]); // heard after the no
     await vi.waitFor(() => expect(names()).toEqual(['Three', 'Two', 'Four']));
     answers['plans/Ada/steps'] = { json: {} };
+    const write = document.body.appendChild(document.createElement('input'));
+    write.focus();
+    told([plan({ robot: 'Ada', revision: 6, state: 'running', steps: [two, four] })]); // and before one saves
+    expect(names()).toEqual(['Two', 'Four']);
+    expect(document.activeElement).toBe(write);
+    told([plan({ robot: 'Ada', revision: 7, state: 'running', steps: [two, four, three] })]);
+    expect(names()).toEqual(['Two', 'Four', 'Three']);
+    told([plan({ robot: 'Ada', revision: 8, state: 'idle', steps: [] })]); // everything is cancelled, and begun again
+    told([plan({ robot: 'Ada', revision: 9, state: 'running', steps: [two, four, three] })]);
     await user.click(screen.getByRole('button', { name: 'Save' }));
-    expect(puts().at(-1)).toEqual({ steps: ['Three', 'Two', 'Four'].map(call), revision: 5 });
+    expect(puts().at(-1)).toEqual({ steps: ['Two', 'Four', 'Three'].map(call), revision: 9 });
     expect(screen.queryByRole('grid')).toBeNull();
+  });
+
+  it('is closed where there is nothing to change any more', async () => {
+    told([plan({ robot: 'Ada', revision: 4, state: 'running', steps: named('One', 'Two') })]);
+    render(<PlanPanel />);
+    const user = userEvent.setup();
+    await user.click(screen.getByRole('button', { name: 'Change' }));
+    told([plan({ robot: 'Ada', revision: 5, state: 'idle', steps: [] })]);
+    answers['plans/Ada/steps'] = { refused: 'Ada has no plan to change.', status: 409 };
+    await user.click(screen.getByRole('button', { name: 'Save' }));
+    await vi.waitFor(() => expect(screen.queryByRole('grid')).toBeNull(), { timeout: 10_000 });
   });
 
   it('is kept when somebody else says yes to it meanwhile, and given up when they say no', async () => {

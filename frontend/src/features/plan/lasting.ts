@@ -19,12 +19,16 @@ export function useLasting<T>(name: string, initial: T): [T, (value: T) => void]
 export const baseOf = (robot: string) => `${robot} base`;
 export const editId = (robot: string, plan: PlanView | null) => `${robot} ${plan?.revision ?? ''}`;
 
-/** Take what was made of steps under one name over into a robot's plan as it is now, and open that to be changed on. */
-export function carryOver(from: string, then: readonly StepView[], plan: PlanView): void {
+/**
+ * Take what was made of steps under one name over into a robot's plan as it is now, to be changed on there.
+ * @param opened Whether it is being changed there already, and the keyboard stays where it is.
+ */
+export function carryOver(from: string, then: readonly StepView[], plan: PlanView, opened = false): void {
   const mine = useKeptEdits.getState()[`${from} steps`] ?? toDrafts(pendingSteps(then));
   const steps = rebased(then, mine as readonly DraftStep[], plan.steps);
   forget(from);
-  useKeptEdits.setState({ [`${editId(plan.robot, plan)} steps`]: steps, [baseOf(plan.robot)]: plan });
+  const id = editId(plan.robot, plan);
+  useKeptEdits.setState({ [`${id} steps`]: steps, [`${id} opened`]: opened, [baseOf(plan.robot)]: plan });
 }
 
 /** Forget all that is kept under a name. */

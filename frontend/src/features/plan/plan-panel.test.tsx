@@ -37,8 +37,8 @@ const show = (part: Partial<PlanView> = {}) => {
   return userEvent.setup();
 };
 
-const WAIT = { timeout: 4000 }; // longer than what is on its way is waited for
-
+const WAIT = { timeout: 10_000 }; // longer than what is on its way is waited for
+vi.setConfig({ testTimeout: 20_000 });
 describe('the plan', () => {
   it('says that somebody else decided about what one is changing', async () => {
     const proposal = { id: 'p', robot: 'Ada', message: '', why: '', changes: [], steps: [step({ id: 'go to the box', call: call('Go') })], digest: 'd', by: null };
@@ -187,7 +187,7 @@ describe('the plan', () => {
     status = 409;
     await user.click(screen.getByRole('button', { name: 'Change' }));
     await user.click(screen.getByRole('button', { name: 'Save' }));
-    await vi.waitFor(() => expect(useToasts.getState().toasts.map((toast) => toast.message)).toEqual([expect.stringContaining('Your changes are kept')]), WAIT);
+    await vi.waitFor(() => expect(useToasts.getState().toasts.map((toast) => toast.message)).toEqual([expect.stringContaining('What you changed is kept')]), WAIT);
     screen.getByRole('grid');
     act(() => useLive.getState().takeChanges([{ kind: 'plan', seq: 1, plan: plan({ robot: 'Ada', state: 'ended', steps }) }]));
     expect(useToasts.getState().toasts).toEqual([]); // there is nothing to change any more
@@ -210,7 +210,7 @@ describe('the plan', () => {
     change(2, [...on.slice(0, 3), step({ id: 'five', call: call('Five') })]); // by somebody else
     expect(list()).toHaveLength(1);
     await user.click(screen.getByRole('button', { name: 'Save' }));
-    expect(saved()[1]).toEqual({ steps: [call('Four')], revision: 8 });
+    expect(saved()[1]).toEqual({ steps: [call('Five')], revision: 9 });
   });
 
   it('says that it waits for an answer where its step does, and offers no choice of one', () => {

@@ -26,7 +26,7 @@ import { UnattendedChoice } from '@/ui/unattended-choice';
 import { ProposalCard } from './proposal-card';
 import { pickPlan, proposalsOf, shownPlans } from './shown-plans';
 import { StepCard } from './step-card';
-import { usePassed, useRemoving, useSaving } from './use-saving';
+import { useKeptInPlan, usePassed, useRemoving, useSaving } from './use-saving';
 
 const BUSY: readonly StepState[] = ['running', 'waiting', 'failed', 'paused', 'stopping'];
 
@@ -81,6 +81,7 @@ function PlanOf({ plan }: { plan: PlanView }) {
   const begun = useSame(since.begun);
   const changed = editing ? pending.filter((step) => !again.includes(step)).map((step) => step.id) : [];
   const id = editId(partKey(plan), editing);
+  useKeptInPlan(id, editing, plan, isSame);
   const close = useStable(() => setEditing(null));
   const save = useSaving();
   const passed = usePassed();
@@ -89,9 +90,9 @@ function PlanOf({ plan }: { plan: PlanView }) {
     const all = [...again.map((step) => step.call ?? {}), ...calls];
     const revision = editing && !isSame ? editing.revision : plan.revision;
     const outcome = await save(plan.robot, () => putSteps(plan.robot, all, revision), undefined, null);
-    if (outcome === 'saved') close();
-    if (outcome === 'conflict' && editing) await passed(id, editing, revision);
-    return outcome === 'saved';
+    const isDone = outcome === 'saved' || (outcome === 'conflict' && (await passed(plan.robot, revision)));
+    if (isDone) close();
+    return isDone;
   });
   const remove = useRemoving(plan);
   const steps = useCurrentInView(current - over, editing !== null);
@@ -105,7 +106,6 @@ function PlanOf({ plan }: { plan: PlanView }) {
         <Steps title={t('now')} from={over} lines={lines.slice(over)} plan={plan} isChanged={(id) => changed.includes(id)} onRemove={editing ? undefined : remove} list={steps} />
         {editing && (
           <PlanEditor
-            key={editing.revision}
             id={id}
             robot={plan.robot}
             steps={first}

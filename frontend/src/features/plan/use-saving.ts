@@ -1,3 +1,4 @@
+import { useEffect } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { ApiError, putSteps } from '@/live/api';
@@ -8,7 +9,7 @@ import { untilReached, useToasts } from '@/state/toasts';
 import { quoted, sentence } from '@/ui/words';
 
 import { pendingSteps } from './editing';
-import { baseOf, carryOver, useKeptEdits } from './lasting';
+import { carryOver } from './lasting';
 import { putBack } from './putting-back';
 import type { Line } from '@/live/lines';
 
@@ -54,17 +55,32 @@ export function useSaving() {
   };
 }
 
-/** What somebody was changing under a name when the plan moved on is taken over into the plan as it is then, if that goes on. */
+/** What a plan is that goes on no more. */
+const OVER: readonly PlanView['state'][] = ['ended', 'idle'];
+
+/**
+ * What somebody is changing stands in what others make of the plan meanwhile, as soon as that is heard.
+ * @param then The plan that it is kept under a name for.
+ */
+export function useKeptInPlan(id: string, then: PlanView | null, plan: PlanView, isSame: boolean): void {
+  const { t } = useTranslation('plan');
+  const show = useToasts((state) => state.show);
+  useEffect(() => {
+    if (!then || isSame || OVER.includes(plan.state)) return;
+    carryOver(id, then.steps, plan, true);
+    show({ tone: 'error', message: t('conflictKept'), stands: whileItGoesOn(plan.robot) });
+  }, [id, then, plan, isSame, show, t]);
+}
+
+/** The plan moved on before a change of it arrived: true if it is over, and there is nothing to change any more. */
 export function usePassed() {
   const { t } = useTranslation('plan');
   const show = useToasts((state) => state.show);
-  return async (from: string, then: PlanView, revision: number) => {
-    await movedOn(then.robot, revision);
-    const plan = ownPlan(then.robot);
-    const goesOn = plan !== undefined && plan.state !== 'ended';
-    if (goesOn) carryOver(from, then.steps, plan);
-    else useKeptEdits.setState({ [baseOf(then.robot)]: null });
-    show({ tone: 'error', message: t(goesOn ? 'conflictKept' : 'conflict'), stands: goesOn ? whileItGoesOn(then.robot) : 'deed' });
+  return async (robot: string, revision: number) => {
+    await movedOn(robot, revision);
+    const isOver = OVER.includes(ownPlan(robot)?.state ?? 'idle');
+    show({ tone: 'error', message: t(isOver ? 'conflict' : 'conflictKept'), stands: isOver ? 'deed' : whileItGoesOn(robot) });
+    return isOver;
   };
 }
 
