@@ -7,6 +7,7 @@ import { ability, mapInfo, plan, robot, snapshot, step } from '@/live/samples';
 import { useLive } from '@/live/store';
 import type { PlanView, ProposalView, StepView } from '@/live/types';
 
+import { useToasts } from '@/state/toasts';
 import * as words from '@/ui/words';
 
 import { useKeptEdits } from './lasting';
@@ -30,6 +31,7 @@ describe('a plan that is being changed', () => {
     Object.assign(answers, { 'robots/Ada/map': { json: mapInfo }, 'map': { json: mapInfo }, 'plans/Ada/steps': { json: {} }, 'plans/Ada/decision': { json: {} } });
     vi.stubGlobal('fetch', network(answers, asked));
     useKeptEdits.setState({}, true);
+    useToasts.setState({ toasts: [] });
   });
 
   it('stays as far as one got over a restart and on other pages, and drops nothing that waits again', async () => {
@@ -139,5 +141,18 @@ describe('a plan that is being changed', () => {
       else expect(screen.queryByRole('grid')).toBeNull();
       if (isYes) await user.click(screen.getByRole('button', { name: 'Cancel' }));
     }
+  });
+
+  it.each(['One', 'anew'])('is not said to lack a step that somebody else has put back, as %s', async (planned) => {
+    const [one, two] = named('One', 'Two') as [StepView, StepView];
+    told([plan({ robot: 'Ada', revision: 4, state: 'running', steps: [{ ...one, state: 'running' }, two] })]);
+    render(<PlanPanel />);
+    const notes = () => useToasts.getState().toasts.map(({ message }) => message);
+    const user = userEvent.setup();
+    await user.click(screen.getByRole('button', { name: 'Skip' }));
+    told([plan({ robot: 'Ada', revision: 5, state: 'running', steps: [{ ...one, state: 'skipped' }, { ...two, state: 'running' }] })]);
+    expect(notes()).toEqual(['“One” is left out.']);
+    told([plan({ robot: 'Ada', revision: 6, state: 'running', steps: [{ ...one, planned, state: 'running' }, two] })]);
+    expect(notes()).toEqual([]);
   });
 });

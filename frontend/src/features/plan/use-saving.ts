@@ -11,7 +11,7 @@ import { quoted, sentence } from '@/ui/words';
 import { pendingSteps } from './editing';
 import { carryOver } from './lasting';
 import { putBack } from './putting-back';
-import type { Line } from '@/live/lines';
+import { OVER, type Line } from '@/live/lines';
 
 type Outcome = 'saved' | 'refused' | 'conflict';
 
@@ -21,6 +21,15 @@ const MOVED_ON_MS = 2000;
 
 export const ownPlan = (robot: string) =>
   Object.values(useLive.getState().world.plans).find((one) => one.robot === robot && one.kind === 'plan');
+
+const keyOf = (step: StepView) => step.planned || step.id;
+
+/** Whether one more is to be done that is just so, than there was without it. */
+function isBack(step: StepView | undefined, left: readonly StepView[], now: readonly StepView[]): boolean {
+  const alike = (steps: readonly StepView[]) =>
+    steps.filter((one) => one.action === step?.action && one.label === step.label && !OVER.has(one.state)).length;
+  return alike(now) > alike(left);
+}
 
 const isDone = (robot: string, meant: StepView | undefined) =>
   Boolean(meant?.planned) && ownPlan(robot)?.steps.some((step) => step.planned === meant?.planned && step.state === 'finished');
@@ -56,7 +65,7 @@ export function useSaving() {
 }
 
 /** What a plan is that goes on no more. */
-const OVER: readonly PlanView['state'][] = ['ended', 'idle'];
+const ENDED: readonly PlanView['state'][] = ['ended', 'idle'];
 
 /**
  * What somebody is changing stands in what others make of the plan meanwhile, as soon as that is heard.
@@ -66,7 +75,7 @@ export function useKeptInPlan(id: string, then: PlanView | null, plan: PlanView,
   const { t } = useTranslation('plan');
   const show = useToasts((state) => state.show);
   useEffect(() => {
-    if (!then || isSame || OVER.includes(plan.state)) return;
+    if (!then || isSame || ENDED.includes(plan.state)) return;
     carryOver(id, then.steps, plan, true);
     show({ tone: 'error', message: t('conflictKept'), stands: whileItGoesOn(plan.robot) });
   }, [id, then, plan, isSame, show, t]);
@@ -78,7 +87,7 @@ export function usePassed() {
   const show = useToasts((state) => state.show);
   return async (robot: string, revision: number) => {
     await movedOn(robot, revision);
-    const isOver = OVER.includes(ownPlan(robot)?.state ?? 'idle');
+    const isOver = ENDED.includes(ownPlan(robot)?.state ?? 'idle');
     show({ tone: 'error', message: t(isOver ? 'conflict' : 'conflictKept'), stands: isOver ? 'deed' : whileItGoesOn(robot) });
     return isOver;
   };
@@ -90,8 +99,18 @@ export function usePutBack(plan: PlanView) {
   const show = useToasts((state) => state.show);
   const save = useSaving();
   return (gone: readonly StepView[], message: string, label = t('common:undo')) => {
-    // What was done before it was heard is not out, and is not to be done once more; a search goes with what it is made for.
-    const out = () => gone.filter((_, at) => !isDone(plan.robot, gone.slice(at).find((step) => !step.only_finds)));
+    // What was done before it was heard is not out, and is not to be done once more, nor is what somebody else has put back; a
+    // search goes with what it is made for.
+    const rest = (steps: readonly StepView[]) => steps.filter((step) => !gone.some((one) => keyOf(one) === keyOf(step)));
+    const left = rest(plan.steps);
+    let isOut = false; // until it is heard that it is
+    const out = () => {
+      const now = ownPlan(plan.robot)?.steps ?? [];
+      const isOpen = (step: StepView) => now.some((one) => keyOf(one) === keyOf(step) && !OVER.has(one.state));
+      isOut ||= !gone.some(isOpen);
+      const isIn = (step?: StepView) => isDone(plan.robot, step) || isBack(step, left, rest(now)) || (isOut && step !== undefined && isOpen(step));
+      return gone.filter((_, at) => !isIn(gone.slice(at).find((step) => !step.only_finds)));
+    };
     const stands = () => out().length > 0;
     const undo = async (tries = TRIES): Promise<void> => {
       const now = ownPlan(plan.robot);
