@@ -5,7 +5,7 @@ import { entry, robot, snapshot } from '@/live/samples';
 import { useLive } from '@/live/store';
 import { useToasts } from '@/state/toasts';
 
-import { LEAST_MS, useNotices } from './use-notices';
+import { LEAST_MS, MOST_MS, useNotices } from './use-notices';
 
 const shown = () => useToasts.getState().toasts.map((toast) => toast.message);
 const ada = (seq: number, state: 'idle' | 'running', battery = 1) => ({ kind: 'robot' as const, seq, robot: robot({ name: 'Ada', state, battery }) });
@@ -14,14 +14,19 @@ const refused = (seq: number) => ({ kind: 'rejection' as const, seq, robot: 'Ada
 beforeEach(() => useToasts.setState({ toasts: [] }));
 afterEach(() => vi.useRealTimers());
 
-it('takes back that a stopped robot does not move, as soon as it is released', () => {
+it.each([
+  ['it is released', 0, { name: 'Ada' }],
+  ['it could be read: it stands at the top of the page all the time', MOST_MS, { name: 'Ada', battery: 0.4, state: 'stopped' as const }],
+])('takes back that a stopped robot does not move, as soon as %s', (_, afterMs, next) => {
+  vi.useFakeTimers();
   useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada', state: 'stopped' })] }));
   renderHook(useNotices);
   act(() => useLive.getState().takeChanges([{ kind: 'rejection', seq: 1, robot: 'Ada', message: 'Ada does not move.' }]));
   expect(shown()).toEqual(['Ada does not move.']);
   act(() => useLive.getState().takeChanges([{ kind: 'robot', seq: 2, robot: robot({ name: 'Ada', battery: 0.5, state: 'stopped' }) }]));
   expect(shown()).toHaveLength(1);
-  act(() => useLive.getState().takeChanges([{ kind: 'robot', seq: 3, robot: robot({ name: 'Ada' }) }]));
+  vi.advanceTimersByTime(afterMs);
+  act(() => useLive.getState().takeChanges([{ kind: 'robot', seq: 3, robot: robot(next) }]));
   expect(shown()).toEqual([]);
 });
 

@@ -7,6 +7,8 @@ import { useToasts } from '@/state/toasts';
 
 /** For so long at least one can read it: what it is about may still be on its way. */
 export const LEAST_MS = 5000;
+/** What stands elsewhere as long as it is so, lies over the page no longer than this. */
+export const MOST_MS = 15_000;
 
 /** Shows what was refused, once each. */
 export function useNotices(): void {
@@ -26,12 +28,12 @@ export function useNotices(): void {
 /** Until a stopped robot is released; until another begins or has done what it was at, or is told something else. */
 function whileItIsSo(robot: string, then: World): (live: { world: World }) => boolean {
   const mood = moodOf(robot, then);
-  if (mood === 'stopped') return ({ world }) => moodOf(robot, world) === 'stopped';
-  const [said, until] = [lastSaidTo(robot, then), Date.now() + LEAST_MS];
+  const [said, began] = [lastSaidTo(robot, then), Date.now()];
+  if (mood === 'stopped') return ({ world }) => moodOf(robot, world) === 'stopped' && Date.now() < began + MOST_MS;
   return ({ world }) => {
     const now = moodOf(robot, world);
     const isOver = now !== mood && (now === 'running' || now === 'idle');
-    return Date.now() < until || (!isOver && lastSaidTo(robot, world) === said);
+    return Date.now() < began + LEAST_MS || (!isOver && lastSaidTo(robot, world) === said);
   };
 }
 

@@ -61,10 +61,10 @@ it('tells the next shift what failed, apart from what was done, and who stopped 
   await user.click(screen.getByRole('button', { name: 'Handover' }));
   const part = (name: string) => within(screen.getByRole('heading', { name }).closest('section') ?? document.body);
   await screen.findByRole('article');
-  part('Did not work, was ended early, or its end was not recorded').getByText(/Look at the box – .*It is hidden\./);
+  part('Did not work, was ended early, or its end was not recorded').getByText(/Look at the box – Did not work – .*It is hidden\./);
   part('Did not work, was ended early, or its end was not recorded').getByText('Found: I can see a bag.');
-  part('Did not work, was ended early, or its end was not recorded').getByText(/Look at the door/);
-  part('Done').getByText(/Kim \(phone\) to Ada: Go to the box – Left out: Look at the bed/);
+  part('Did not work, was ended early, or its end was not recorded').getByText(/Look at the door – (Ended early|End not recorded)/);
+  part('Done').getByText(/Kim \(phone\) to Ada: Go to the box – Done in part – Left out: Look at the bed/);
   part('Stops').getByText(/Kim stopped Ada\./);
   part('Waits for somebody').getByText('Nothing.');
 });

@@ -171,6 +171,7 @@ export function RoundLine({ round }: { round: RoundView }) {
   return (
     <li>
       <time>{clockTime(round.unix_ms, i18n.language)}</time> {by ? t('by', { who: by, robot: round.robot }) : round.robot}: {titleOf(round)}
+      {round.state !== 'running' && round.state !== 'done' && <> – {t(`state.${round.state}`)}</>}
       {found.length > 0 && <> – <strong>{t('found', { what: found.join(' ') })}</strong></>}
       {round.reason && <> – {round.reason}</>}
       {left.length > 0 && <> – {t('left', { what: left.join('; ') })}</>}
