@@ -162,6 +162,14 @@ def test_a_sentence_ends_once_whatever_is_filled_in_before_its_end(said: str, sh
         assert not re.search(r"(?<!\.)\.[”“]?\.(?!\.)", in_language(text, "et"))
 
 
+@pytest.mark.parametrize("step", ["Look with the camera: “Area A”", "Go to “Area A”", "Wait for 3 s"])
+def test_each_step_of_a_numbered_list_is_said_in_the_language(step: str) -> None:
+    told = in_language(f"This is what I would do: 1. {step}, 2. {step}, 3. {step}. Shall I?", "et")
+    said = in_language(step, "et")
+    assert said != step
+    assert told == f"Ma teeksin nii: 1. {said}, 2. {said}, 3. {said}. Kas teen nii?"
+
+
 def test_a_step_that_is_named_in_a_sentence_or_a_record_is_named_in_its_language() -> None:
     template = "I was interrupted while I was at “{step}”. Please give the order again if it still holds."
     text = sentence(template, step="go to the bed")

@@ -160,6 +160,7 @@ class Catalogue:
         return found
 
     def _by_form(self, text: str) -> str | None:
+        quoted: str | None = None
         for form in self._forms:
             if form.key not in text or (match := form.pattern.fullmatch(text)) is None:
                 continue
@@ -168,8 +169,11 @@ class Catalogue:
                 continue
             values = {name: self._held(name, value, form) for name, value in held.items()}
             if not form.joins or (values != held and len(list(_sentences(text))) == 1):
-                return ended_once(form.other.format(**values))
-        return None
+                found = ended_once(form.other.format(**values))
+                if not form.joins or any(_letters(values[name]) != _letters(held[name]) for name in held):
+                    return found
+                quoted = quoted or found  # another way to part it may find more than quotation marks
+        return quoted
 
     def _held(self, name: str, value: str, form: _Form) -> str:
         """What is filled in; between names, which stay, stands a word of this language."""
@@ -185,6 +189,10 @@ class Catalogue:
 def ended_once(text: str) -> str:
     """Without the full stop of what is filled in where the sentence has its own right behind it."""
     return _ENDED_TWICE.sub(r"\1.", text)
+
+
+def _letters(text: str) -> str:
+    return "".join(filter(str.isalnum, text))
 
 
 def _is_balanced(text: str) -> bool:
