@@ -155,4 +155,26 @@ describe('a plan that is being changed', () => {
     told([plan({ robot: 'Ada', revision: 6, state: 'running', steps: [{ ...one, planned, state: 'running' }, two] })]);
     expect(notes()).toEqual([]);
   });
+
+  it('keeps a step that has begun meanwhile, should it wait again, and takes nobody else for who saves', async () => {
+    const [one, two, three, four] = named('One', 'Two', 'Three', 'Four') as [StepView, StepView, StepView, StepView];
+    told([plan({ robot: 'Ada', revision: 4, state: 'running', steps: [{ ...one, state: 'running' }, two, three, four] })]);
+    render(<PlanPanel />);
+    const user = userEvent.setup();
+    await user.click(screen.getByRole('button', { name: 'Change' }));
+    told([plan({ robot: 'Ada', revision: 5, state: 'running', steps: [{ ...one, state: 'finished' }, { ...two, state: 'running' }, three, four] })]);
+    await user.click(screen.getByRole('button', { name: 'Move “Four” up' }));
+    expect(names()).toEqual(['Four', 'Three']);
+    told([plan({ robot: 'Ada', revision: 1009, state: 'paused', steps: named('Two', 'Three', 'Four') })]); // a restart
+    expect(names()).toEqual(['Two', 'Four', 'Three']);
+    const saved = named('Two', 'Four', 'Three');
+    vi.stubGlobal('fetch', (path: string, options: RequestInit) => {
+      told([plan({ robot: 'Ada', revision: 1010, state: 'paused', steps: saved })]); // heard before the answer
+      return network(answers, asked)(path, options);
+    });
+    await user.click(screen.getByRole('button', { name: 'Save' }));
+    expect(puts().at(-1)).toEqual({ steps: ['Two', 'Four', 'Three'].map(call), revision: 1009 });
+    expect(useToasts.getState().toasts.map(({ message }) => message)).toEqual(['The plan was changed.']);
+    expect(screen.queryByRole('grid')).toBeNull();
+  });
 });

@@ -45,6 +45,8 @@ export const PlanEditor = memo(function PlanEditor({ id, robot, steps: initial, 
   const { t } = useTranslation(['plan', 'common']);
   const [drafts, setSteps] = useLasting(`${id} steps`, initial);
   const steps = useMemo(() => without(drafts, begun), [drafts, begun]);
+  // What has begun is not shown, and is no less a part of the plan: it may have to wait once more.
+  const become = (shown: readonly DraftStep[]) => setSteps([...drafts.filter((one) => !steps.some(({ id }) => id === one.id)), ...shown.map((one) => whole(one, drafts))]);
   const [added, setAdded] = useLasting(`${id} added`, 0);
   const [busy, setBusy] = useState(false);
   const [removed, setRemoved] = useLasting<Removed | null>(`${id} removed`, null);
@@ -62,22 +64,22 @@ export const PlanEditor = memo(function PlanEditor({ id, robot, steps: initial, 
     },
   });
 
-  const move = useStable((step: DraftStep, by: -1 | 1) => setSteps(nudged(steps, step.id, by)));
+  const move = useStable((step: DraftStep, by: -1 | 1) => become(nudged(steps, step.id, by)));
 
   const remove = useStable((step: DraftStep) => {
-    setSteps(steps.filter((one) => one.id !== step.id));
+    become(steps.filter((one) => one.id !== step.id));
     setRemoved({ step, index: steps.findIndex((one) => one.id === step.id) });
   });
 
   const putBack = ({ step, index }: Removed) => {
-    setSteps(steps.toSpliced(index, 0, step));
+    become(steps.toSpliced(index, 0, step));
     setRemoved(null);
   };
 
   const add = (name: string) => {
     const wanted = choices.find((one) => one.action.name === name);
     if (!wanted) return;
-    setSteps([...steps, newStep(wanted, `added to ${id} ${added}`)]);
+    become([...steps, newStep(wanted, `added to ${id} ${added}`)]);
     setAdded(added + 1);
   };
 
@@ -93,7 +95,7 @@ export const PlanEditor = memo(function PlanEditor({ id, robot, steps: initial, 
   };
 
   const change = useStable((changed: DraftStep, name: string, value: string | number | boolean) =>
-    setSteps(steps.map((step) => (step.id === changed.id ? setInput(step, name, value) : step))),
+    become(steps.map((step) => (step.id === changed.id ? setInput(step, name, value) : step))),
   );
 
   return (
@@ -148,6 +150,12 @@ export const PlanEditor = memo(function PlanEditor({ id, robot, steps: initial, 
     </div>
   );
 });
+
+/** With the search that was made for it, which has begun as well. */
+function whole(step: DraftStep, drafts: readonly DraftStep[]): DraftStep {
+  const finding = drafts.find(({ id }) => id === step.id)?.finding ?? [];
+  return finding.length > step.finding.length ? { ...step, finding } : step;
+}
 
 /** What a robot can be sent to. */
 function usePlaces(robot: string): Places {

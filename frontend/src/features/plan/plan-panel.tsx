@@ -81,7 +81,8 @@ function PlanOf({ plan }: { plan: PlanView }) {
   const begun = useSame(since.begun);
   const changed = editing ? pending.filter((step) => !again.includes(step)).map((step) => step.id) : [];
   const id = editId(partKey(plan), editing);
-  useKeptInPlan(id, editing, plan, isSame);
+  const [saving, setSaving] = useState(false);
+  useKeptInPlan(id, saving ? null : editing, plan, isSame); // what one saves oneself, nobody else has changed
   const close = useStable(() => setEditing(null));
   const save = useSaving();
   const passed = usePassed();
@@ -89,9 +90,11 @@ function PlanOf({ plan }: { plan: PlanView }) {
   const saveAll = useStable(async (calls: readonly ActionCall[]) => {
     const all = [...again.map((step) => step.call ?? {}), ...calls];
     const revision = editing && !isSame ? editing.revision : plan.revision;
+    setSaving(true);
     const outcome = await save(plan.robot, () => putSteps(plan.robot, all, revision), undefined, null);
     const isDone = outcome === 'saved' || (outcome === 'conflict' && (await passed(plan.robot, revision)));
     if (isDone) close();
+    setSaving(false);
     return isDone;
   });
   const remove = useRemoving(plan);
