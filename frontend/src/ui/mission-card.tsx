@@ -101,16 +101,16 @@ function Controls({ mission }: { mission: MissionInfo }) {
   return (
     <div className={css.buttons}>
       {open.some(stands) && (
-        <Button needs="resume" icon="play" isDisabled={busy} onPress={() => void order('resume')}>
+        <Button needs="resume" icon="play" isDisabled={busy} aria-label={`${t('resume')}: ${mission.words}`} onPress={() => void order('resume')}>
           {t('resume')}
         </Button>
       )}
       {!open.every(stands) && (
-        <Button icon="pause" isDisabled={busy} onPress={() => void order('pause')}>
+        <Button icon="pause" isDisabled={busy} aria-label={`${t('pause')}: ${mission.words}`} onPress={() => void order('pause')}>
           {t('pause')}
         </Button>
       )}
-      <Button needs="clear" icon="trash" isDisabled={busy} onPress={() => void order('clear')}>
+      <Button needs="clear" icon="trash" isDisabled={busy} aria-label={`${t('clear')}: ${mission.words}`} onPress={() => void order('clear')}>
         {t('clear')}
       </Button>
     </div>
