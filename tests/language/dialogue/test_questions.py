@@ -238,3 +238,12 @@ async def test_how_something_is_now_only_a_look_can_tell_and_that_is_offered(
 async def test_the_map_tells_how_far_and_what_is_where(message: str, reply: str) -> None:
     dialogue = Dialogue("running", RUNS, left_s=40.0) if " it" in message else Dialogue()
     assert (await said(message, dialogue)).startswith(reply)
+
+
+async def test_what_was_found_before_a_restart_is_told_of_who_has_not_looked_since() -> None:
+    known = (*THINGS, MapObject("k", "black bag", 3.0, 0.0, found=True))
+    for message in ("did you find anything?", "did you see a bag?"):
+        situation = Situation(message, objects=known, robot="Ada", robots=("Ada",), catalogue=CATALOGUE)
+        told = (await ENGINE.interpret(situation)).message_response
+        assert "since I was started. The map has what was found before: black bag." in told
+    assert "Say “look around”" in await said("did you find anything?", Dialogue())

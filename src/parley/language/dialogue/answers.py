@@ -321,15 +321,14 @@ def _seen(situation: Situation, about: str) -> str:
     looks = [deed for deed in _looks(situation) if _stems(about) <= _stems(deed.label)]
     now = _NOW.search(situation.message.lower()) is not None  # that is looked at, not told
     if about and not looks:
-        return "" if now else "I have not looked there with my camera yet."
-    here = f"I am {whereabouts(situation.objects, situation.robot_pose)}."
+        return "" if now else "I have not looked there with my camera since I was started."
     if not looks and now and re.search(r"\bit\b", situation.message):
         return ""
     if not looks:
-        return (
-            "I have not looked at anything with my camera yet, so I have seen nothing to tell. "
-            f"{here} Say “look around”, and I do."
-        )
+        here = f"I am {whereabouts(situation.objects, situation.robot_pose)}. Say “look around”, and I do."
+        found = [item.description for item in situation.objects if item.found]
+        told = f"The map has what was found before: {listed(found)}." if found else here
+        return f"I have not looked at anything with my camera since I was started. {told}"
     last = looks[-1]
     meant = looks[-1:] if _THERE.search(situation.message) else [d for d in looks if d.order == last.order]
     newest = [*{deed.label: deed for deed in meant}.values()][-_MOST:]
