@@ -65,19 +65,15 @@ def addressed(situation: Situation, tokens: Sequence[Token]) -> tuple[str, ...] 
     return Ask(f"Is that for {others[0]}? Please call {others[0]} by name first.") if others else here
 
 
-def uncalled(situation: Situation, lexicon: Lexicon) -> str:
-    """The message without the name of who hears it at either end: "Spot, Kim is in the yard"."""
+def uncalled(situation: Situation, lexicon: Lexicon, *, told: bool = False) -> str:
+    """The message without the name of who hears it at either end, where that is also a deed, or `told`."""
     name, said = situation.robot, situation.message
-    if not name:
+    if not name or ((name.lower(),) not in lexicon.verbs and not told):
         return said
     call = rf"\W*(?:(?:hey|ok|okay|please|hi|hello),? )?{re.escape(name)}\b([,:!–-]*)\s+(?=(\w+))"
     before = re.match(call, said, re.IGNORECASE)
-    others = {word.lower() for one in situation.robots for word in one.split()} | {"and"}
-    deed = (name.lower(),) in lexicon.verbs and before and (before[2].lower(),) in lexicon.verbs
-    if before and (before[1] or deed) and before[2].lower() not in others:
+    if before and (before[1] or (before[2].lower(),) in lexicon.verbs):
         return said[before.end() :]
-    if (name.lower(),) not in lexicon.verbs:
-        return said
     return re.sub(rf",\s*{re.escape(name)}(?=[.!?]*$)", "", said, flags=re.IGNORECASE)
 
 

@@ -22,7 +22,7 @@ from parley.language.builtin.addressing import uncalled
 from parley.language.builtin.amending import amended
 from parley.language.builtin.clauses import Clause, clauses
 from parley.language.builtin.deciding import decide
-from parley.language.builtin.decision import Answer, Ask, Decision, Do
+from parley.language.builtin.decision import Answer, Ask, Decision, Do, Remember
 from parley.language.builtin.lexicon import lexicon, stem
 from parley.language.builtin.own import OwnActions, is_promised
 from parley.language.builtin.own_words import own_words
@@ -145,7 +145,7 @@ class BuiltinLanguage:
         own, known = self._own.applied, situation.catalogue
         parts = tuple(
             replace(one, reading=own(one.parse, one.reading, known, framed))
-            if one.clause.link == "main" and one.parse.tokens
+            if one.clause.link == "main" and one.parse.tokens and one.reading.acts != {"answer"}
             else one
             for one in parts
         )
@@ -158,7 +158,10 @@ class BuiltinLanguage:
                 replace(situation, message=text, history=(), objects=objects, dialogue=plain, memory=memory)
             )
 
-        return decide(situation, parts, skills, self._lexicon, partial(self.reading, names=names), again)
+        made = decide(situation, parts, skills, self._lexicon, partial(self.reading, names=names), again)
+        said = situation.message  # "Ada, Kim's box is here" tells nothing of Ada
+        bare = uncalled(situation, self._lexicon, told=True) if isinstance(made, Remember) else said
+        return self.decide(replace(situation, message=bare)) if bare != said else made
 
     def _with_past(self, situation: Situation) -> Situation:
         """With the last order and what was asked about it, where nothing but the turns is known of them."""

@@ -319,11 +319,11 @@ def _looks(situation: Situation) -> list[Deed]:
 
 def _seen(situation: Situation, about: str) -> str:
     looks = [deed for deed in _looks(situation) if _stems(about) <= _stems(deed.label)]
-    now = _NOW.search(situation.message.lower()) is not None  # that is looked at, not told
-    if about and not looks:
-        return "" if now else "I have not looked there with my camera since I was started."
-    if not looks and now and re.search(r"\bit\b", situation.message):
+    now = _NOW.search(situation.message.lower())  # that is looked at, not told
+    if not looks and now and (about or re.search(r"\bit\b", situation.message)):
         return ""
+    if about and not looks:
+        return "I have not looked there with my camera since I was started."
     if not looks:
         here = f"I am {whereabouts(situation.objects, situation.robot_pose)}. Say “look around”, and I do."
         found = [item.description for item in situation.objects if item.found]

@@ -115,9 +115,8 @@ def _of_whom(
 ) -> Remember | None:
     """What is told of "she", where it was told just before of somebody by name."""
     said, name = _OF_ONE.match(situation.message), NAME.match(last)
-    if said is None or name is None or not reader(last).acts & {"told", "need"}:
-        return None
-    made = again(f"{name[0].strip()}{said['rest']}")
+    told = said and name and reader(last).acts & {"told", "need"}
+    made = again(f"{name[0].strip()}{said['rest']}") if said and name and told else None
     return made if isinstance(made, Remember) else None
 
 
