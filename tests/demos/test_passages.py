@@ -127,7 +127,10 @@ async def test_an_elevator_holds_one_and_who_waits_for_it_says_so_when_asked() -
         await home.say("go to the elevator", "Lee")
         assert set(await home.done("Lee")) == {"finished"}
         await home.say("go to the elevator", "Kim")
-        await home.observer.until(lambda: _waits(home, "Kim"), timeout_s=PATIENCE_S)
+        await home.observer.until(
+            lambda: any("waiting before" in event.progress_text for event in home.observer.events),
+            timeout_s=PATIENCE_S,
+        )
         for question in ("what are you doing?", "how long will it take?"):
             told = (await home.say(question, "Kim")).message
             assert told.endswith("I am waiting before “elevator”: Lee goes first.")
