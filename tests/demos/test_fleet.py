@@ -251,10 +251,16 @@ async def test_some_stay_whoever_they_are_and_only_the_others_go() -> None:
     async with hall() as home:
         await home.say("One of you stay here, the others go to the dock", "Spot")
         assert sorted(goals(home).values()) == [[], ["charging dock"], ["charging dock"]]
-        for robot in ROBOTS:
-            await home.say("cancel everything", robot)
+        await cancelled(home)
         await home.say("two of you stay put, the third one goes to the pump", "TIAGo")
         assert goals(home) == {"Spot": ["pump"], "TIAGo": [], "Leo": []}
+
+
+async def cancelled(home: House) -> None:
+    """All of them have dropped all."""
+    for robot in ROBOTS:
+        await home.say("cancel everything", robot)
+    await home.observer.until(lambda: not any(goals(home).values()), timeout_s=PATIENCE_S)
 
 
 async def test_where_one_robot_shall_not_go_is_asked_as_its_rule_whoever_hears_it() -> None:
@@ -274,12 +280,10 @@ async def test_robots_are_counted_left_out_by_name_and_never_given_two_parts_at_
     async with hall() as home:
         await home.say("two of you go to the loading gate, the other one waits at the dock", "Spot")
         assert sorted(goals(home).values()) == [["charging dock"], ["loading gate"], ["loading gate"]]
-        for robot in ROBOTS:
-            await home.say("cancel everything", robot)
+        await cancelled(home)
         await home.say("everybody but Leo go to the pump", "Spot")
         assert goals(home) == {"Spot": ["pump"], "TIAGo": ["pump"], "Leo": []}
-        for robot in ROBOTS:
-            await home.say("cancel everything", robot)
+        await cancelled(home)
         twice = await home.say("Spot goes to the pump, Leo goes to Area C and Spot goes to Area A", "TIAGo")
         assert twice.message.endswith("Please tell each of us its part.")
         await home.say("nobody move", "Spot")
@@ -293,12 +297,10 @@ async def test_robots_are_counted_left_out_by_name_and_never_given_two_parts_at_
 async def test_what_was_said_to_a_team_is_given_on_as_work_and_not_as_its_parts() -> None:
     async with hall() as home:
         await home.say("one of you go to the pump, the others wait at the dock", "Leo")
-        for robot in ROBOTS:
-            await home.say("cancel everything", robot)
+        await cancelled(home)
         assert (await home.say("let Spot do that", "Leo")).message.endswith("in full.")
         await home.say("one of you go to Area A", "Spot")
-        for robot in ROBOTS:
-            await home.say("cancel everything", robot)
+        await cancelled(home)
         await home.say("let Leo do that", "Spot")
         assert goals(home) == {"Spot": [], "TIAGo": [], "Leo": ["Area A"]}
 
@@ -351,13 +353,19 @@ async def test_another_order_to_a_team_comes_in_place_of_the_one_before(
 
             await home.observer.until(begun, timeout_s=PATIENCE_S)
 
-        def last() -> list[str]:
-            over = ("finished", "skipped", "stopped")
+        def last() -> list[str]:  # of each, there already or not
+            over = ("skipped", "stopped")
             plans = [home.observer.plans.get(name) for name in ROBOTS]
             left = [[step for step in plan.steps if step.state not in over] if plan else [] for plan in plans]
             return [str(steps[-1].label).split("“")[-1].strip("”") if steps else "" for steps in left]
 
-        await home.observer.until(lambda: last() == ends, timeout_s=PATIENCE_S)
+        def asked() -> list[str]:  # what became another plan meanwhile is asked about anew
+            return [name for name, plan in home.observer.plans.items() if plan.state == "awaiting_approval"]
+
+        while last() != ends:
+            await home.observer.until(lambda: last() == ends or bool(asked()), timeout_s=PATIENCE_S)
+            for name in asked():
+                await home.say("yes", name)
 
 
 async def test_words_to_a_team_that_are_not_read_are_no_order_to_whoever_hears_them() -> None:

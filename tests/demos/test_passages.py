@@ -123,7 +123,8 @@ async def test_who_stands_in_the_doorway_and_is_seen_from_afar_is_waited_for_and
 
 async def test_an_elevator_holds_one_and_who_waits_for_it_says_so_when_asked() -> None:
     world = WORLD.replace("name: passage, corners: [[5.5, 2.4], [6.5, 2.4], [6.5, 3.6], [5.5, 3.6]]", LIFT)
-    async with halls(world=world) as (home, _):
+    # At full speed it would have waited too long before it is asked.
+    async with halls(10.0, world) as (home, _):
         await home.say("go to the elevator", "Lee")
         assert set(await home.done("Lee")) == {"finished"}
         await home.say("go to the elevator", "Kim")
