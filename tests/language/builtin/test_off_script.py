@@ -6,7 +6,7 @@ import pytest
 
 from parley.cli.actions import catalogue_with
 from parley.language.base import Turn
-from parley.language.builtin.decision import Answer, Ask, Control, Decision, Do, Edit, Remember
+from parley.language.builtin.decision import Answer, Ask, Decision, Do, Edit, Remember
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.builtin.lexicon import lexicon
 from parley.language.builtin.reply import to_chat
@@ -390,11 +390,9 @@ def test_a_call_by_name_is_no_part_of_what_is_told() -> None:
     assert [fact.text for fact in made.told] == ["Maie's medicine is at the gate"]
 
 
-@pytest.mark.parametrize("said", ["Ada, stop right there please!", "stop right there please!", "stop stop"])
-def test_a_stop_is_one_whatever_is_under_way(said: str) -> None:
-    way = to_chat(told("go to the gate"), lexicon()).queue
-    made = told(said, status="running", queue=way)
-    assert isinstance(made, Control) and made.command == "stop"
+def test_what_is_told_behind_a_wait_is_told() -> None:
+    made = told("wait, that was yesterday. they are on the gate", "my keys are on the old crate")
+    assert isinstance(made, Remember)
 
 
 def test_what_only_answers_calls_up_no_action_of_the_robots_own() -> None:

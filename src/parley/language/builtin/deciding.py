@@ -31,7 +31,6 @@ from parley.language.dialogue.facts import is_report, is_wish, own_words
 from parley.language.dialogue.indirect import meant
 from parley.language.dialogue.mentions import named
 from parley.language.dialogue.speaker import Again, name_of
-from parley.messages.chat import CommandName
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
 
@@ -56,8 +55,6 @@ def decide(
         reader: Reads what is remembered.
         again: Decides about a part of the message, or about what was said before.
     """
-    if control_of(situation.message, situation.robots) in ("stop", "emergency_stop"):
-        return _controlled("stop", situation)
     tokens = spoken(tokenize(situation.message)) or tokenize(situation.message)
     made = _decided(situation, tokens, parts, skills, lexicon, reader, again)
     made = for_nobody(made, situation, tokens, lexicon, again) or made
@@ -113,11 +110,6 @@ def _decided(
         made = _for_who_is_there(situation, told, again) or made
         return replace(made, told=told) if isinstance(made, Ask) else made
     return made
-
-
-def _controlled(command: CommandName, situation: Situation) -> Control:
-    called = addressed(situation, tokenize(situation.message))
-    return Control(command, () if isinstance(called, Ask) else called)
 
 
 def _asks_ability(message: str, reading: Reading, lexicon: Lexicon) -> bool:
@@ -378,8 +370,10 @@ def _without_order(
     reader: Callable[[str], Reading],
 ) -> Decision:
     command = control_of(situation.message, situation.robots)
-    if command is not None and command != "emergency_stop":
-        return _controlled(command, situation)
+    if command is not None:
+        called = addressed(situation, tokenize(situation.message))
+        robots = () if isinstance(called, Ask) else called
+        return Control("stop" if command == "emergency_stop" else command, robots)
     if facts:
         return Remember(facts)
     if "question" in reading.acts:
