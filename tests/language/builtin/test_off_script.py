@@ -398,3 +398,8 @@ def test_what_is_told_behind_a_wait_is_told() -> None:
 def test_what_only_answers_calls_up_no_action_of_the_robots_own() -> None:
     made = told("it's on you now")
     assert isinstance(made, Ask) and not made.offer
+
+
+@pytest.mark.parametrize("said", ["?", "what?!", "and? or not", "Ada?", "is? it"])
+def test_a_question_of_few_words_ends_no_run(said: str) -> None:
+    assert told(said, "go to the gate") is not None

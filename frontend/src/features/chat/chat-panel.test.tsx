@@ -59,6 +59,7 @@ describe('the chat', () => {
   it('does not say of what somebody else said that oneself did', async () => {
     const user = show({});
     await user.click(screen.getByRole('button', { name: 'Go to the door.' }));
+    await vi.waitFor(() => expect(sent).toHaveLength(1));
     const [own] = sent as unknown as { id: string }[];
     const said = (id: string, device: string, author = '') => entry({ id, device, author, who: 'operator', targets: ['Ada'] });
     act(() => useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada' })], chat: [said(own?.id ?? '', 'page on a phone'), said('a', 'page on a phone'), said('b', ''), said('c', '', 'Kim')] })));

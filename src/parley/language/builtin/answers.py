@@ -112,7 +112,7 @@ def look_asked_for(tokens: Sequence[Token], names: Sequence[Named], called: Cont
     low = [token.low for token in tokens[first:asked] if token.is_word and token.low not in called]
     if len(names) == 1 and "or" in low[3:]:  # "is the gate open or closed?"
         low = low[: low.index("or", 3)]
-    if low[0] in _ANY and len(names) == 1:  # "anything at the gate?"
+    if {*low[:1]} & _ANY and len(names) == 1:  # "anything at the gate?"
         return f"check if there is {' '.join(low)}"
     ask = next((at for at, word in enumerate(low[:4]) if word in ("is", "are")), None)
     if ask is None or set(low[:ask]) - _OPENING or len(names) != 1:
