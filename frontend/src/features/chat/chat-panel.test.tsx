@@ -58,7 +58,7 @@ describe('the chat', () => {
 
   it('does not say of what somebody else said that oneself did', async () => {
     const user = show({});
-    await user.click(screen.getByRole('button', { name: 'Go to the door.' }));
+    await user.type(screen.getByRole('textbox'), 'hello from me{Enter}');
     await vi.waitFor(() => expect(sent).toHaveLength(1));
     const [own] = sent as unknown as { id: string }[];
     const said = (id: string, device: string, author = '') => entry({ id, device, author, who: 'operator', targets: ['Ada'] });
