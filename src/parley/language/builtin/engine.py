@@ -123,13 +123,13 @@ class BuiltinLanguage:
             return Ask("That is too much at once. Please say it in shorter pieces.")
         if not any(token.is_word for token in tokenize(situation.message)):
             return Ask("I did not understand that. Please say what I should do.")
-        situation = replace(situation, message=self._meant(uncalled(situation, self._lexicon)))
+        names = _names(tuple(item.description for item in situation.objects))
+        situation = replace(situation, message=self._meant(uncalled(situation, self._lexicon), names))
         situation = self._with_past(replace(situation, message=in_turn(situation.message)))
         situation = replace(situation, memory=(*situation.memory, *in_mind(situation)))
         if (taught := own_words(situation, self._lexicon, self.decide)) is not None:
             return taught
         situation = replace(situation, objects=with_names(situation.objects, taught_in(situation.memory)))
-        names = _names(tuple(item.description for item in situation.objects))
         parts = self._parts(situation.message, names)
         if len(parts) > 1 and is_promised(situation.message, situation.catalogue):
             parsed, _ = self._read(situation.message, names)
@@ -183,11 +183,11 @@ class BuiltinLanguage:
 
     def reading(self, text: str, names: Names = ()) -> Reading:
         """What a text says, whatever the situation but for the names that are known in it."""
-        return self._read(self._meant(text), names)[1]
+        return self._read(self._meant(text, names), names)[1]
 
-    def _meant(self, text: str) -> str:
+    def _meant(self, text: str, names: Names) -> str:
         """A text without what is taken back in it: nothing that follows sees what is not meant."""
-        while (cut := amended(self._read(text, ())[0], self._lexicon)) is not None:
+        while (cut := amended(self._read(text, names)[0], self._lexicon)) is not None:
             text = f"{text[: cut[0]]}{text[cut[1] :]}"
         return text
 

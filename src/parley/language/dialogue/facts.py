@@ -247,7 +247,10 @@ def forgotten(situation: Situation, bare: str) -> tuple[MemoryEntry, ...] | None
     found = _FORGET.fullmatch(bare)
     if found is None:
         return None
-    small = {*re.findall(r"\w+", "is are was the a my i told you said about that location place sits")}
+    small = {
+        "is", "are", "was", "the", "a", "my", "i", "told", "you", "said", "about", "that", "location",
+        "place", "sits",
+    }  # fmt: skip
     wanted = {stem(word.removesuffix("'s")) for word in re.findall(r"[\w']+", found["about"])} - small
 
     def words(entry: MemoryEntry) -> set[str]:

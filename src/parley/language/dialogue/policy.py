@@ -244,13 +244,10 @@ _AGAIN: Final = re.compile(
 
 def _once_more(situation: Situation, bare: str) -> Decision | None:
     """For "do that again": what was ordered last, as it was understood then."""
-    words = r"\b(?:again|once more|one more time|another time|repeat|same)\b"
-    if (
-        re.search(words, situation.message.lower()) is None
-        or _AGAIN.fullmatch(bare) is None
-        or situation.question
-        or situation.queue
-    ):
+    again = re.search(
+        r"\b(?:again|once more|one more time|another time|repeat|same)\b", situation.message.lower()
+    )
+    if again is None or _AGAIN.fullmatch(bare) is None or situation.question or situation.queue:
         return None
     if not situation.dialogue.orders:
         return Answer("I have not done anything yet that I could do again.")
@@ -525,11 +522,7 @@ def spoken_of(
             thing = next(
                 (p for p in known if not _is_called(p) and _tells_of(p, turn.content, low, bare)), None
             )
-        if {
-            "it",
-            "them",
-            "one",
-        } & low and names:  # "bring it to the gate" speaks of something else than the gate
+        if _IT & low and names:  # "bring it to the gate" speaks of something else than the gate
             place = place or names[-1].things[0]
         elif thing is None and not open_:
             most = most_asked(tokens, situation, lexicon)
@@ -541,6 +534,9 @@ def spoken_of(
             else:
                 thing = found
     return thing or place, person
+
+
+_IT: Final = frozenset({"it", "them", "one"})
 
 
 def _tells_of(place: Place, text: str, low: set[str], bare: bool) -> bool:
