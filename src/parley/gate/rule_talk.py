@@ -50,6 +50,7 @@ _INSIST: Final = re.compile(
     r"|\b(?:ignore|override|overrule|disregard|break|bypass|eira) (?:(?:the|that|this|your|seda) )?"
     r"(?:rules?|reeglit)\b"
 )
+_NO_NAME: Final = frozenset({"in", "inside", "there", "it", "again", "now", "back", "sinna", "sisse"})
 _NAMES_NOTHING: Final = frozenset({
     "yes", "no", "but", "ok", "okay", "well", "just", "please", "then", "still", "you", "i", "say",
     "said", "can", "may", "do", "go", "drive", "move", "try", "proceed", "carry", "on", "in",
@@ -228,7 +229,7 @@ class RuleTalk:
         return bool(
             _LIST.match(said)
             or _DROP.match(said)
-            or self._closing(lifted_place(text), self._all)
+            or self._closing(self._freed(text, to), self._all)
             or self._told(text, to) is not None
             or self._insisted(said, to.robot)
         )
@@ -259,7 +260,7 @@ class RuleTalk:
             if waits and not (found["about"] or found["kohta"]):  # it is no rule yet
                 return await self._answer(waits, "no", by)
             return self._drop(found["about"] or found["kohta"] or "", by, to)
-        if (place := lifted_place(text)) and (lifted := self._lift(place, by, to)) is not None:
+        if (place := self._freed(text, to)) and (lifted := self._lift(place, by, to)) is not None:
             return lifted
         told = self._told(text, to)
         if told is None and (refused := self._insisted(said, to.robot)):
@@ -337,6 +338,15 @@ class RuleTalk:
         words = set(re.findall(r"\w+", place))
         closing = [rule for rule in rules if rule.kind == "keep_out"]
         return [rule for rule in closing if words and words == set(re.findall(r"\w+", rule.name.casefold()))]
+
+    def _freed(self, text: str, to: Listener) -> str:
+        """The place that may be entered again; for "in" or "there" the one refused last, or closed."""
+        place = lifted_place(text)
+        if place not in _NO_NAME:
+            return place
+        refused = [self._book.rules.get(name) for name in self._refused.get(to.robot, ())]
+        closed = [rule for rule in (refused or self._all) if rule is not None and rule.kind == "keep_out"]
+        return closed[0].name.casefold() if len(closed) == 1 else place
 
     def _lift(self, place: str, by: Principal, to: Listener) -> RuleReply | None:
         """A place is free again: what was only asked is asked no more, a rule is dropped after a yes."""

@@ -403,3 +403,48 @@ def test_what_only_answers_calls_up_no_action_of_the_robots_own() -> None:
 @pytest.mark.parametrize("said", ["?", "what?!", "and? or not", "Ada?", "is? it"])
 def test_a_question_of_few_words_ends_no_run(said: str) -> None:
     assert told(said, "go to the gate") is not None
+
+
+SHELVES = tuple(MapObject(name, name, x, 1.0) for name, x in (("bay 1", 1.0), ("bay 2", 5.0), ("bay A", 9.0)))
+
+
+def test_a_kind_is_asked_about_where_numbers_or_letters_tell_things_apart() -> None:
+    made = ENGINE.decide(situation("go to the bay", objects=SHELVES, catalogue=SHIPPED))
+    assert isinstance(made, Ask) and made.choices == ("bay 1", "bay 2", "bay A")
+
+
+@pytest.mark.parametrize(
+    ("said", "where"),
+    [
+        ("go to bay 1, bay 2 and bay A, start with bay 2", ["bay 2", "bay 1", "bay A"]),
+        ("check bay 1 and bay A, A first please", ["bay A", "bay 1"]),
+        ("check bay 1 and bay 2. Finish with bay 1.", ["bay 2", "bay 1"]),
+        ("go to bay 1, start with bay 2", None),
+        ("on your way back look at bay 2", ["bay 2"]),
+    ],
+)
+def test_what_comes_first_is_said_beside_an_order(said: str, where: list[str] | None) -> None:
+    made = ENGINE.decide(situation(said, objects=SHELVES, catalogue=SHIPPED))
+    told = [str(v) for deed in made.deeds for v in deed.arguments.values()] if isinstance(made, Do) else []
+    assert [*dict.fromkeys(told)] == (where or [])
+
+
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        ("is the parcel in bay 2?", "Shall I go and look?"),
+        ("what is between bay 1 and bay A?", "By my map: the bay 2."),
+        ("where can you go?", "I can go to the bay 1, the bay 2 or the bay A."),
+        ("never mind, go back to the moon", "I do not know any “moon” here"),
+        ("a van is parked by bay 2", "For now I keep in mind that a van is parked by bay 2. Shall I go to"),
+        ("great, remember the parcel is packed", "I will remember that the parcel is packed."),
+    ],
+)
+def test_what_was_said_off_script_is_answered(said: str, told: str) -> None:
+    made = ENGINE.decide(situation(said, objects=SHELVES, catalogue=SHIPPED))
+    assert told in to_chat(made, lexicon()).message_response
+
+
+def test_somebody_asleep_is_in_no_danger() -> None:
+    made = decided("Rein fell asleep in bay A, be quiet around him")
+    assert not (isinstance(made, Ask) and made.alarms)

@@ -52,27 +52,30 @@ def answer(
     place = known_place(name, places(situation.memory, reader, lexicon))
     if place is not None:
         return Answer(f"I remember: {place.memory.data.rstrip('.')}.", (place.memory.name,))
+    told = None if "where" in situation.message.lower() else _kept(situation, lexicon)
     if mention.kind == "one":
-        told = None if "where" in situation.message.lower() else _kept(situation, lexicon)
         tokens = tokenize(situation.message)
         if not told and look_asked_for(tokens, named(tokens, situation.objects, lexicon)):
             return Answer("How that is now I only see when I look there.")
         return told or Answer(_lying(situation, mention.things[0]))
     if mention.kind == "several":
-        tokens = tokenize(situation.message)
-        led = [at for at, token in enumerate(tokens) if token.low in lexicon.classes["prepositions"]]
-        spots = named_alone(tokens[led[-1] :], situation.objects, lexicon) if led else []
-        here = [
-            item for item in mention.things if any(one.gap_m(item.x_m, item.y_m) < _IN_M for one in spots)
-        ]
-        if spots and not here:
-            return Answer("By my map there is none there. What is there now I only see when I look.")
-        both = " and ".join(with_article(item.description) for item in here or mention.things)
-        return Answer(f"On my map there is {both}.")
+        return told or _among(mention.things, situation, lexicon)
     if {*thing.words} & _ANY:
         return Answer(_NO_ANSWER)
     shown = with_article(as_said(mention.text, situation.message))
     return _kept(situation, lexicon) or Answer(f"I do not know anything about {shown}.")
+
+
+def _among(things: Sequence[MapObject], situation: Situation, lexicon: Lexicon) -> Answer:
+    """What the map knows of a kind: at the place that is named, else all of it."""
+    tokens = tokenize(situation.message)
+    led = [at for at, token in enumerate(tokens) if token.low in lexicon.classes["prepositions"]]
+    spots = named_alone(tokens[led[-1] :], situation.objects, lexicon) if led else []
+    here = [item for item in things if any(one.gap_m(item.x_m, item.y_m) < _IN_M for one in spots)]
+    if spots and not here:
+        return Answer("By my map there is none there. What is there now I only see when I look.")
+    both = " and ".join(with_article(item.description) for item in here or things)
+    return Answer(f"On my map there is {both}.")
 
 
 def most_asked(tokens: Sequence[Token], situation: Situation, lexicon: Lexicon) -> tuple[MapObject, ...]:
@@ -120,6 +123,11 @@ def look_asked_for(tokens: Sequence[Token], names: Sequence[Named], called: Cont
     being, rest = low[ask], low[ask + 1 :]
     if rest[:1] == ["there"] or (rest and rest[0] in _ANY):
         return f"check if {rest[0]} {being} {' '.join(rest[1:])}"
+    start = len(rest) - len(names[0].words)
+    led = [word for word in rest[:start] if word != "the"]
+    if rest[start:] == [*names[0].words] and len(led) > 1 and led[-1] in _WHERE and led[0] not in _PLACED:
+        cut = start - 1 - (rest[start - 1] == "the")
+        return f"check if {' '.join(rest[:cut])} {being} {' '.join(rest[cut:])}"  # "is the post in bay 2?"
     end = next(
         (at for at in range(len(rest), 0, -1) if rest[at - len(names[0].words) : at] == [*names[0].words]), 0
     )
@@ -135,6 +143,7 @@ _OPENING: Final = frozenset(
 _ANY: Final = frozenset(
     {"anybody", "anyone", "somebody", "someone", "anything", "something", "everything", "nobody", "all"}
 )
+_WHERE: Final = frozenset({"in", "at", "on", "inside", "under", "by", "near"})
 _PLACED: Final = frozenset({
     "at", "in", "on", "near", "far", "away", "close", "here", "by", "next", "behind", "beside", "under",
     "where", "to", "from", "or", "called", "yours", "mine", "it", "that", "left", "right",

@@ -107,6 +107,7 @@ def _decided(
     missed = isinstance(made, Do) and any("operator" in deed.arguments.values() for deed in made.deeds)
     if tells and (missed or (isinstance(made, Ask) and not made.alarms)):
         told = policy.no_facts(_beside(situation.message, again), situation, beside=True)
+        told = told_in(situation.message) if is_report(situation.message) else told  # until somebody looks
         made = _for_who_is_there(situation, told, again) or made
         return replace(made, told=told) if isinstance(made, Ask) else made
     return made
@@ -389,6 +390,8 @@ def _without_order(
     if reading.acts == {"social"}:
         leaves = policy.LEAVES.search(situation.message.lower())
         return Answer("Goodbye." if leaves else "Hello. Tell me what I can do for you.")
+    if situation.message.rstrip().endswith("?"):
+        return answer(situation, reading, lexicon, reader)
     if "told" in reading.acts:
         return Ask(_NO_FACT)
     return Ask("I did not understand that. What shall I do, and with what?")

@@ -370,9 +370,8 @@ class Builder(Doing):
         """That no action does what is wanted."""
         if wish.frame == "PUT":
             return Ask("I have no arm. I can go there and tell you what I see.")
-        return Ask(
-            f"I have no action to {self.lexicon.frames[wish.frame].gloss}. What else can I do for you?"
-        )
+        what = wish.verb if wish.frame == "DO" and wish.verb else self.lexicon.frames[wish.frame].gloss
+        return Ask(f"I have no action to {what}. What else can I do for you?")
 
     def _not_held(self, wish: Wish, values: dict[str, Value]) -> Ask | None:
         """The question what is meant by "it", which was a place or a thing of an earlier message."""

@@ -449,7 +449,9 @@ class Grounder:
             return several is None or not several.doubt
         named = link(filler.words, filler.head, self.situation.objects, self.lexicon)
         name, rest = noun_phrase(filler.words, filler.head, self.lexicon)
-        return named.kind == "one" and not rest and len(name) <= len(named.things[0].description.split()) + 1
+        if named.kind != "one" or " ".join((*name, *rest)) == named.things[0].description.lower():
+            return named.kind == "one"
+        return not rest and len(name) <= len(named.things[0].description.split()) + 1
 
     def names_same(self, words: Sequence[str], wishes: Sequence[Wish]) -> bool:
         """Whether words name what one of these wishes is about."""

@@ -12,7 +12,7 @@ from parley.language.builtin.things import link
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["Picked", "beside", "picked"]
+__all__ = ["NEAREST", "Picked", "beside", "picked"]
 
 _NEAR = (
     "next to", "near to", "nearest to", "closest to", "nearer to", "closer to", "close to", "nearest",
@@ -82,10 +82,11 @@ def beside(it: MapObject, things: Sequence[MapObject]) -> MapObject | None:
 
 def _begins_relation(words: Sequence[str], end: int) -> bool:
     rest = [word for word in words[end:] if word not in _FILLING]
-    return bool(rest) or any(word in _MOST or word in _BIGGEST or word in _NEAREST for word in words[:end])
+    return bool(rest) or any(word in _MOST or word in _BIGGEST or word in NEAREST for word in words[:end])
 
 
-_NEAREST = frozenset({"nearest", "closest", "farthest", "furthest"})
+NEAREST = frozenset({"nearest", "closest", "farthest", "furthest"})
+"""What tells one of several things by how far it is."""
 
 
 def _of_family(
@@ -102,7 +103,7 @@ def _of_family(
     measure: Callable[[MapObject], float] | None = None
     more = []
     for word in name[:-1]:
-        if word in _NEAREST and pose is not None:
+        if word in NEAREST and pose is not None:
             sign = 1.0 if word in ("nearest", "closest") else -1.0
             measure = _distance(pose.x_m, pose.y_m, sign)
         elif word in _BIGGEST:

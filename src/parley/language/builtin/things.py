@@ -194,7 +194,7 @@ def _rank_of(name: Sequence[str], item: MapObject) -> int:
 def _rank(wanted: tuple[str, ...], known: tuple[str, ...]) -> int:
     if wanted == known or set(wanted) == set(known) or "".join(wanted) == "".join(known):
         return 0
-    if _naming(known)[-len(wanted) :] == wanted or (
+    if wanted in (_naming(known)[-len(wanted) :], _kind(known)[-len(wanted) :]) or (
         set(wanted) <= set(known) and wanted[-1] == main_word(known)
     ):
         return 1
@@ -224,6 +224,12 @@ def _naming(known: tuple[str, ...]) -> tuple[str, ...]:
     """What names the thing, without what says where it is."""
     end = next((at for at, word in enumerate(known) if word in _PLACING and at), len(known))
     return known[:end]
+
+
+def _kind(known: tuple[str, ...]) -> tuple[str, ...]:
+    """What kind of thing is named, without its number or letter: "bay" of "bay 2"."""
+    name = _naming(known)
+    return name[:-1] if len(name) > 1 and (name[-1].isdigit() or len(name[-1]) == 1) else name
 
 
 def _alike(one: str, other: str) -> bool:

@@ -430,6 +430,9 @@ def _whats_in(situation: Situation, about: str) -> str:
     """What the map knows in a room, or around a thing."""
     room = about.lower() if about.lower() in rooms(situation.objects) else ""
     things = _things(situation, about) if not room else ()
+    ends = [thing for part in about.split(" and ") for thing in _things(situation, part)]
+    if "between" in situation.message.lower() and len(ends) == 2:
+        return _between(situation, *ends)
     found = in_room(room, situation.objects, situation.robot_pose) if room else ()
     at, far_m = situation.robot_pose if about in ("", "here", "you", "me", "us") else None, _AROUND_M
     if len(things) == 1:
@@ -439,6 +442,41 @@ def _whats_in(situation: Situation, about: str) -> str:
         found = tuple(item for item in near if item not in things and distance_m(item, at) < far_m)
     names = [called(item.description) for item in found[:_MOST]]
     return f"By my map: {listed(names)}. What is there now I only see when I look." if names else ""
+
+
+def _between(situation: Situation, one: MapObject, other: MapObject) -> str:
+    middle = Pose2D((one.x_m + other.x_m) / 2, (one.y_m + other.y_m) / 2, 0.0)
+    far_m = distance_m(one, middle)
+    names = [
+        called(item.description)
+        for item in situation.objects
+        if item not in (one, other) and distance_m(item, middle) < far_m
+    ]
+    return f"By my map: {listed(names[:_MOST])}." if names else "By my map there is nothing between them."
+
+
+def _places(situation: Situation, about: str) -> str:
+    """Where it can go: the rooms, and the things on the map that are nearest."""
+    at = situation.robot_pose
+    near = sorted(situation.objects, key=lambda item: distance_m(item, at) if at is not None else 0.0)
+    names = [called(name) for name in (*rooms(situation.objects), *(item.description for item in near))]
+    shown = [*dict.fromkeys(names)]
+    more = f", and to {counted(len(shown) - _PLACES, 'more place')}" if len(shown) > _PLACES else ""
+    return f"I can go to {listed(shown[:_PLACES], 'or')}{more}." if shown else ""
+
+
+_PLACES: Final = 12
+
+
+def _amiss(situation: Situation, about: str) -> str:
+    """What of the last order was left out, given up or failed."""
+    done = _visible(situation.dialogue.deeds)
+    last = [deed for deed in done if deed.order == done[-1].order]
+    bad = [deed_words(deed) for deed in last if deed.ending in ("failed", "stopped", "left out")]
+    if bad or not done:
+        return f"Not all of it was done: {'; '.join(bad)}." if bad else _did(situation, about)
+    left = f" {_left(situation, about)}" if _steps_left(situation) else ""
+    return f"So far I left nothing out, and nothing failed.{left}"
 
 
 def _things(situation: Situation, about: str) -> tuple[MapObject, ...]:
@@ -535,7 +573,7 @@ _TOPICS: Final[dict[str, Callable[[Situation, str], str]]] = {
     "why_not_go": _why_not_go, "why": _why, "what_doing": _doing, "what_left": _left, "what_did": _did,
     "before_stop": _before_stop, "beside_step": _beside,
     "what_seen": _seen, "what_else_seen": _else, "seen_thing": _seen_thing, "how_long": _how_long,
-    "how_far": _how_far, "whats_in": _whats_in,
+    "how_far": _how_far, "whats_in": _whats_in, "places": _places, "amiss": _amiss,
     "battery": _battery, "able": _able, "name": _name, "time": _time, "told_about": _told_about,
     "told_all": _told_all, "difference": _difference,
     "hear": lambda situation, about: "Yes, I hear you: I read every word.",

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Final
 
 from parley.language.base import Situation
 from parley.language.builtin.decision import Ask, Decision, Deed, Do, Edit
+from parley.language.builtin.lexicon import lexicon
+from parley.language.builtin.sets import kinds
+from parley.language.builtin.spatial import NEAREST, picked
 from parley.language.builtin.tokens import Token
 from parley.language.dialogue.replies import chosen, names_deed
 from parley.language.dialogue.speaker import Again
 
-__all__ = ["choice_of", "together"]
+__all__ = ["choice_of", "in_order", "tells", "together"]
 
 _ANSWER: Final = 10
 _ORDER: Final = frozenset({"first", "before", "then", "afterwards", "later", "also", "next"})
@@ -35,9 +39,11 @@ def choice_of(situation: Situation, tokens: Sequence[Token], again: Again) -> De
     """
     asked = situation.dialogue.asked
     words = [token.low for token in tokens if token.is_word]
+    lead = 1 if words[:1] == ["no"] else 2 if words[:2] == ["all", "right"] else 0
+    words = words[lead:] if len(words) > lead + 1 else words  # "no, the red one" says which
     if asked is None or len(words) > _ANSWER or situation.message.rstrip().endswith("?"):
         return None
-    if names_deed(words):
+    if names_deed(words) or tells(words):
         return None
     also = {item.description: item.aliases for item in situation.objects}
     several = together(words, asked.choices, also) if {*asked.choices} <= {*also} else ()
@@ -45,13 +51,38 @@ def choice_of(situation: Situation, tokens: Sequence[Token], again: Again) -> De
         made = [again(asked.words, [name for name in asked.choices if name != one]) for one in several]
         joined = _one_after_the_other(made)
         return replace(joined, about=asked.words) if isinstance(joined, Do) else joined
-    choice = chosen(words, asked.choices, also)
+    choice = _by_place(words, asked.choices, situation) or chosen(words, asked.choices, also)
     if choice is None or _orders(words, choice, asked.choices):
         return None
     one = again(asked.words, [name for name in asked.choices if name != choice])
     if isinstance(one, Do):
         return replace(one, about=asked.words)
     return one if isinstance(one, Edit) or (isinstance(one, Ask) and one.offer) else None
+
+
+def tells(words: Sequence[str]) -> bool:
+    """Whether it is said how something is: "the red one is full" answers no "which one?"."""
+    at = next((n for n, word in enumerate(words) if word in ("is", "are", "was", "were", "has", "'s")), 0)
+    return at > 0 and words[at - 1] not in _LEADING_TO
+
+
+_LEADING_TO: Final = frozenset(
+    {"it", "that", "this", "which", "who", "where", "mean", "meant", "there", "whichever"}
+)
+
+
+def _by_place(words: Sequence[str], choices: Sequence[str], situation: Situation) -> str | None:
+    """The one that is told by where it is: "the one closest to the gate", "the nearest"."""
+    items = [item for item in situation.objects if item.description in choices]
+    shared = set.intersection(*(kinds(item) for item in items)) if items else set()
+    at = next((n for n, word in enumerate(words) if word in ("one", *NEAREST)), None)
+    if not shared or at is None or NEAREST.isdisjoint(words):
+        return None
+    said = [*words[: at + (words[at] != "one")], min(shared), *words[at + 1 :]]
+    said = [word for word in said if word != "one"]
+    found = picked(said, situation.objects, lexicon(), situation.robot_pose)
+    names = [item.description for item in found.things] if found is not None else []
+    return names[0] if len(names) == 1 and names[0] in choices else None
 
 
 def _orders(words: Sequence[str], choice: str, choices: Sequence[str]) -> bool:
@@ -76,6 +107,10 @@ def together(
     if bare and {*bare} <= _ALL:
         counts = {_COUNTS[word] for word in bare if word in _COUNTS} or {len(names)}
         return tuple(names) if counts == {len(names)} and len(names) > 1 else ()
+    but = next((n for n, word in enumerate(words) if word in ("except", "but")), 0)
+    if but and {*bare[: bare.index(words[but])]} <= _ALL:  # "all of them but the red one"
+        out = chosen([word for word in words[but + 1 :] if word != "for"], names, also)
+        return tuple(name for name in names if name != out) if out is not None else ()
     said = words[1:] if words[:1] == ["both"] else words
     pieces = [
         [*piece] for linking, piece in itertools.groupby(said, lambda word: word == "and") if not linking
@@ -103,6 +138,39 @@ def _one_after_the_other(made: Sequence[Decision]) -> Do | None:
     middle = [part for row in rows for part in row[before : len(row) - behind]]
     parts = [*rows[0][:before], *middle, *rows[0][len(rows[0]) - behind :]]
     return replace(orders[0], deeds=tuple(deed for part in parts for deed in part))
+
+
+def in_order(situation: Situation, again: Again) -> Do | None:
+    """An order in which it is said what comes first or last: "check A and B, start with B"."""
+    said = _EDGE.fullmatch(situation.message.strip())
+    made = again(said["order"]) if said is not None else None
+    if said is None or not isinstance(made, Do) or not {deed.frame for deed in made.deeds} <= _VISITING:
+        return None
+    visits: list[tuple[Deed, ...]] = []
+    for part in _parts(made.deeds):
+        if part[-1].frame == "GO" or not visits:
+            visits.append(part)
+        else:
+            visits[-1] += part
+    told = [" ".join(str(value) for deed in visit for value in deed.arguments.values()) for visit in visits]
+    names = [item.description for item in situation.objects if any(item.description in one for one in told)]
+    name = chosen((said["edge"] or said["one"]).lower().split(), names)
+    meant = [visit for visit, text in zip(visits, told, strict=True) if name is not None and name in text]
+    if len(meant) != 1 or any(deed.check or deed.open_ended for deed in made.deeds):
+        return None
+    rest = [visit for visit in visits if visit is not meant[0]]
+    last = "last" in (said["where"] or "") or (said["verb"] or "")[:1].lower() in ("f", "e")
+    return replace(made, deeds=tuple(itertools.chain(*(rest + meant if last else meant + rest))))
+
+
+_EDGE: Final = re.compile(
+    r"(?P<order>.+?)(?:\s*[,;.!–-]+\s*|\s+)(?:(?:and|but|please|just|do|take|with)\s+)*"
+    r"(?:(?P<verb>start|starting|begin|beginning|finish|finishing|end|ending)(?: off| up)? "
+    r"(?:with|at|in|from|by) (?:the )?(?P<edge>[\w' -]+?)|(?:the )?(?P<one>[\w' -]+?) (?P<where>first|last))"
+    r"(?:,? please)?[.!]*",
+    re.IGNORECASE,
+)
+_VISITING: Final = frozenset({"GO", "LOOK", "PHOTO", "COUNT"})
 
 
 def _leads(deed: Deed) -> bool:

@@ -75,6 +75,9 @@ def emergency(
     if _is_calm(situation, tokens, lexicon) or _does_something(tokens, lexicon):
         return None
     order, told = _beside(text, pieces, lexicon, reader, again)
+    calm = _NUISANCE.sub(" ", text)
+    if not order and calm != text and not (_danger(calm, lexicon) or "alarm" in reader(calm).acts):
+        return None
     serious = [one for one in told if _NUISANCE.search(one) is None]
     danger = any(_danger(one, lexicon) for one in told)
     if len(serious) < len(told) and not danger and not any("alarm" in reader(one).acts for one in serious):
@@ -240,7 +243,8 @@ _NUISANCE: Final = re.compile(
     r"splitting|bad|playing up|worn out|bother\w*)\b|"
     r"\bstuck (?:in|behind|at) (?:\w+ )*(?:traffic|work|meeting|jam)\b|\bdown (?:my|our) necks?\b|"
     r"\b(?:would|could|'d) (?:kill|murder) for\b|\bdying (?:for|to)\b|\bup to (?:my|our) (?:ears|eyes)\b|"
-    r"\b(?:rushed|run|running) off (?:my|our) feet\b|\brunning late\b",
+    r"\b(?:rushed|run|running) off (?:my|our) feet\b|\brunning late\b|"
+    r"\bf[ae]ll(?:s|en|ing)? (?:fast |sound )?(?:asleep|in love)\b",
     re.IGNORECASE,
 )
 """What is told to be a nuisance, and is no emergency."""

@@ -52,7 +52,8 @@ _KEEP: Final = re.compile(
     r"(?:please )?(?:remember|note|keep in mind|don't forget|do not forget|memorise|memorize)\b"
 )
 _SO: Final = re.compile(
-    r",? that (?!(?:picture|photo|image|view|place|spot|one)\b|.*\bas\b)(?:[\w'-]+ ){2,}\w"
+    r",? that (?!(?:picture|photo|image|view|place|spot|one)\b|.*\bas\b)(?:[\w'-]+ ){2,}\w|"
+    r",? (?:it|he|she|they|we|i|the (?:\w+ ){1,3}?|\w+ )(?: ?'s| ?'re| ?'m|is |are |was |has )\w"
 )
 
 _WISHING: Final = re.compile(
@@ -206,8 +207,8 @@ def own_words(message: str) -> str:
     """What is told in a message, without what only leads to it."""
     text = message.strip().rstrip(".!")
     text = re.sub(
-        r"^(?:(?:please|and|so|ok|okay|also|well|oh|hey|remember|note|keep in mind|"
-        r"don't forget)(?: that)?[,:]? )+",
+        r"^(?:(?:please|and|so|ok|okay|also|well|oh|hey|great|good|fine|thanks|thank you|remember|note|"
+        r"keep in mind|don't forget)(?: that)?[,:]? )+",
         "", text, flags=re.IGNORECASE,
     )  # fmt: skip
     return re.sub(r",? (?:by the way|you know|please|btw)$", "", text, flags=re.IGNORECASE)

@@ -40,11 +40,18 @@ _LONGEST: Final = 12
 
 def in_turn(message: str) -> str:
     """A message without "when you are done": every order waits for what the robot is at anyway."""
+    message = _WAY.sub("", message)
     if _TELLING.search(message):
         return message
     return _DONE.sub(" ", message).strip(" ,") or message
 
 
+_WAY: Final = re.compile(
+    r"^(?:(?:ok|okay|and|then|but|please)\W+)*on (?:your|the) way(?: back| home| there| past)?\W+"
+    r"(?=(?:(?:please|also|just|then) )*(?:look|check|have|take|see|stop|go|inspect|bring|drive|pick)\b)",
+    re.IGNORECASE,
+)
+"""What lies on the way is done next; which way a robot takes, it finds by itself."""
 _TELLING: Final = re.compile(
     r"\b(?:tell|say|know|report|call|inform|notify|message|shout|beep)\b", re.IGNORECASE
 )

@@ -23,7 +23,7 @@ from parley.language.builtin.structure import Part
 from parley.language.builtin.tokens import Token, tokenize
 from parley.language.dialogue.answers import answer, differences
 from parley.language.dialogue.changes import Change, before_all, change_of, reordered, texts_of, visits
-from parley.language.dialogue.choosing import choice_of
+from parley.language.dialogue.choosing import choice_of, in_order, tells
 from parley.language.dialogue.emergency import NO_ALARM, emergency, is_emergency
 from parley.language.dialogue.facts import (
     NAME,
@@ -98,6 +98,7 @@ def beforehand(
     if (one or is_emergency(situation)) and (agreed := _agreed(situation, reading, again)) is not None:
         return afterwards(agreed, situation, reading, tokens, lexicon)
     chose = answered_place(situation, lexicon, again) or choice_of(situation, tokens, again)
+    chose = chose or in_order(situation, again)
     if chose is not None:
         return chose
     meant = _about_what_was_said(situation, reading, tokens, lexicon, again)
@@ -196,6 +197,8 @@ def _about_what_was_said(
     change = rearranged(situation, tokens, lexicon) or change_of(situation, tokens, lexicon, orders=False)
     if change is None and situation.dialogue.orders:
         change = followed(situation, tokens, lexicon, situation.dialogue.orders[-1])
+    if change is None and instead is not None and _GIVEN_UP.match(situation.message):
+        return asked if isinstance(asked, Ask) and any(w.act == "order" for w in reading.wishes) else None
     return _edit(change, situation) if change is not None else None
 
 
@@ -213,6 +216,8 @@ def _on_with_less(situation: Situation, again: Again) -> Edit | None:
     return None
 
 
+_GIVEN_UP: Final = re.compile(r"\W*(?:\w+\W+)?(?:never ?mind|forget (?:it|that|this))\b", re.IGNORECASE)
+"""Said before something else: only that is to be understood."""
 _JOINT: Final = re.compile(r"[\s,;.]+(?:(?:but|and|only|just|then)\W+)*(?=\w)", re.IGNORECASE)
 
 
@@ -387,7 +392,8 @@ def _asked_again(
     asked = situation.dialogue.asked
     short = sum(token.is_word for token in tokens) <= _ANSWER
     answers = asked is not None and asked.choices and not (made.choices or made.offer or made.stops)
-    if asked is None or not answers or not short or reading.wishes:
+    told = "told" in reading.acts and tells([token.low for token in tokens if token.is_word])
+    if asked is None or not answers or not short or reading.wishes or told:
         return None
     if not {*asked.choices} <= {item.description for item in situation.objects}:
         return None

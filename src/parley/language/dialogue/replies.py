@@ -49,6 +49,8 @@ _ORDERED: Final = re.compile(r"(?:put|set|shut)\b(?!.*\b(?:it|them|you|your)\b)"
 _RUN_TOGETHER: Final = re.compile(
     r"\b(?:(that|it|there|here|he|she)(s)|(i|you|we|they)(ve)|(you|they)(re))\b"
 )
+_MANY: Final = frozenset({"except", "all", "both", "each", "every"})
+"""What takes several things together, or all but one."""
 _TO_COME: Final = frozenset({"will", "i'll", "we'll", "let", "shall", "would", "going", "must", "should"})
 _ONTO: Final = re.compile(
     r"\b(?:put|placed|laid|set|loaded|slid|strapped|tied|hung|gave|handed|packed|stowed)\b(?: \w+){0,4} "
@@ -74,6 +76,8 @@ _THINKING: Final = re.compile(
     r"wait(?: a .*)?|(?:(?:maybe|i'll do it|do it|no|not now) )?later|soon|be patient|"
     r"not (?:now|yet)|.*\byet|(?:almost|nearly|about to)\b.*)"
 )
+_NEVER: Final = re.compile(r"\W*never (?!mind\b)\w+ \w", re.IGNORECASE)
+"""What begins so is a rule, and no answer."""
 _FEW: Final = 2
 _SURE: Final = 0.3
 _OPEN: Final = re.compile(r"\b(?:what|which|who|whom|where|when|how|why)\b[^.?]*\?\s*$", re.IGNORECASE)
@@ -130,8 +134,10 @@ def chosen(
     shared = set.intersection(*own) if own else set()
     scores = [len(said & (mine - shared)) for mine in own]
     best = max(scores, default=0)
-    if best and not _NOT & set(words) and scores.count(best) == 1:
+    if best and not (_NOT | _MANY) & set(words) and scores.count(best) == 1:
         return names[scores.index(best)]
+    if _MANY & {*words}:
+        return None
     if _NOT & set(words) and scores:
         left = [name for name, score in zip(names, scores, strict=True) if not score]
         return left[0] if len(left) == 1 and best else None
@@ -155,7 +161,7 @@ def read_reply(question: str, reply: str, choices: Sequence[str], reading: Readi
         return ReplyReading("unclear")
     literal = assent_of(reply)
     waits = is_thinking(bare) and (len(words) > _FEW or control_of(reply) is None)
-    if waits or is_thinking(" ".join(words)):
+    if waits or is_thinking(" ".join(words)) or _NEVER.match(reply):
         return ReplyReading("aside")
     if control_of(reply) is not None and not (literal and not choices):
         return ReplyReading("control" if control_of(reply) != "start" else "yes")
