@@ -53,6 +53,11 @@ def dropped(answer: ChatAction) -> set[int | None]:
     return {command.pop_index for command in answer.system_cmd if command.command == "pop"}
 
 
+async def test_a_thing_takes_the_place_of_all_that_is_taken_back() -> None:
+    answer = await ENGINE.interpret(given("forget the crates, the lamp instead", "red crate", "blue crate"))
+    assert (len(dropped(answer)), goals(answer)) == (3, ["lamp"]), answer.message_response
+
+
 @pytest.mark.parametrize(
     ("message", "drops", "adds"),
     [

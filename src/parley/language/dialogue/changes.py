@@ -380,8 +380,10 @@ def _replaced(plan: Sequence[Visit], against: Sequence[Named], wanted: Named, te
         return None
     other = _reason(old[0].said, _names_of(old[0].things), target)
     other = other if other != old[0].said else f"take {called(target.description)}"
-    said = f"I do not {old[0].said}. Instead I {other}."
-    return reordered(plan, deed, _behind(plan, deed), "instead", calls, said)
+    gone = [*deed, *(visit for visit in old if visit not in deed)] if against else deed
+    said = f"I do not {', nor '.join(visit.said for visit in old if visit in gone)}. Instead I {other}."
+    behind = [visit for visit in _behind(plan, deed) if visit not in gone]
+    return reordered(plan, gone, behind, "instead", calls, said)
 
 
 def moved(old: Visit, target: MapObject, before: MapObject | None = None) -> tuple[ActionCall, ...] | None:
