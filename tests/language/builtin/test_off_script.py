@@ -448,3 +448,25 @@ def test_what_was_said_off_script_is_answered(said: str, told: str) -> None:
 def test_somebody_asleep_is_in_no_danger() -> None:
     made = decided("Rein fell asleep in bay A, be quiet around him")
     assert not (isinstance(made, Ask) and made.alarms)
+
+
+STORES = tuple(
+    MapObject(name, name, x, 1.0)
+    for name, x in (("Store A holding area", 1.0), ("Store B holding area", 5.0), ("ramp area", 9.0))
+)
+
+
+@pytest.mark.parametrize(
+    ("said", "where"),
+    [
+        ("go to store B", ["Store B holding area"]),
+        ("drive to holder area B", ["Store B holding area"]),
+        ("go to store b holding area", ["Store B holding area"]),
+        ("go to store C", []),
+        ("go to the holding room", []),
+    ],
+)
+def test_a_long_name_is_known_by_its_letter_and_whole_by_any_case(said: str, where: list[str]) -> None:
+    made = ENGINE.decide(situation(said, objects=STORES, catalogue=SHIPPED))
+    told = [str(v) for deed in made.deeds for v in deed.arguments.values()] if isinstance(made, Do) else []
+    assert [*dict.fromkeys(told)] == where

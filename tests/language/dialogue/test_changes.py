@@ -149,6 +149,22 @@ async def test_a_proposal_is_changed_as_a_whole() -> None:
     assert (answer.replaces, goals(answer), answer.system_cmd) == ("7", ["gate"], ())
 
 
+@pytest.mark.parametrize(
+    "message",
+    ["yes but go to the lamp too", "and then go to the lamp", "also go to the lamp", "go to the lamp"],
+)
+async def test_what_is_said_on_top_of_a_proposal_joins_it(message: str) -> None:
+    waits = PlanProposal(id="7", target="Ada", steps=(*way("box"), *way("gate")), labels=("", "", "", ""))
+    situation = Situation(
+        message, objects=THINGS, robot="Ada", catalogue=(FIND, GO),
+        dialogue=Dialogue("awaiting_approval", proposal=waits),
+    )  # fmt: skip
+    answer = await ENGINE.interpret(situation)
+    joined = message != "go to the lamp"  # that takes its place
+    assert goals(answer) == (["box", "gate", "lamp"] if joined else ["lamp"]), answer.message_response
+    assert answer.replaces == ("7" if joined else "")
+
+
 async def test_who_drops_what_waits_drops_all_that_waits() -> None:
     waits = PlanProposal(id="7", target="Ada", steps=(*way("box"), *way("gate")), labels=("", "", "", ""))
     situation = Situation(

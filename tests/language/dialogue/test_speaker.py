@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from parley.cli.actions import catalogue_with
 from parley.language.base import Situation, Turn
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.dialogue.state import Asked, Dialogue
@@ -13,6 +14,7 @@ from parley.world.object_map import MapObject
 from tests.language.builtin.worlds import CATALOGUE
 
 ENGINE = BuiltinLanguage()
+SHIPPED = catalogue_with(None)[0].for_robot(("drive", "camera")).infos()
 THINGS = (
     MapObject("r", "red desk", 0.0, 0.0),
     MapObject("b", "blue desk", 9.0, 0.0),
@@ -22,14 +24,8 @@ ASKED = Dialogue(asked=Asked("come to me", where="you"), now_unix_ms=1)
 
 
 async def answer(message: str, history: tuple[Turn, ...] = (), **more: object) -> ChatAction:
-    situation = Situation(
-        message,
-        objects=THINGS,
-        robot="Ada",
-        catalogue=CATALOGUE,
-        history=history,
-        **more,  # type: ignore[arg-type]
-    )
+    values: dict[str, object] = {"catalogue": CATALOGUE, "history": history} | more
+    situation = Situation(message, objects=THINGS, robot="Ada", **values)  # type: ignore[arg-type]
     return await ENGINE.interpret(situation)
 
 
@@ -116,3 +112,19 @@ async def test_who_says_where_they_are_and_calls_is_come_to(message: str, goes: 
         assert kept(made)[0].endswith(f"the {goes[0]}")
     else:
         assert made.queue == ()
+
+
+async def test_what_is_missing_is_asked_for_until_an_order_is_whole() -> None:
+    asked = await answer("bring Kim the tray", catalogue=SHIPPED)
+    assert asked.left_open.where == "the tray"
+    told = await answer(
+        "in the hall, on the red desk",
+        catalogue=SHIPPED,
+        dialogue=Dialogue(asked=Asked("bring Kim the tray", where="the tray")),
+    )
+    assert told.left_open.where == "Kim" and told.left_open.told == ("the tray is on the red desk",)
+    last = Dialogue(asked=Asked("bring Kim the tray", where="Kim"), told=told.left_open.told)
+    whole = await answer("by the gate", catalogue=SHIPPED, dialogue=last)
+    assert [name for name in places(whole) if name in ("red desk", "gate")] == ["red desk", "gate"]
+    dropped = await answer("forget it", catalogue=SHIPPED, dialogue=last)
+    assert dropped.message_response == "All right, then I leave it."

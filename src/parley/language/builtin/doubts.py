@@ -48,7 +48,8 @@ def doubt(
         what = " ".join(dict.fromkeys(" ".join(reading.unsteady).split()))
         return Ask(f"I am not sure what you mean by “{what}”. Can you say it in other words?")
     for wish in orders:
-        listed = bool(orders[0].verb) and not wish.verb and wish.frame == orders[0].frame
+        row = bool(orders[0].verb) or not any(one.verb for one in orders)
+        listed = row and wish != orders[0] and not wish.verb and wish.frame == orders[0].frame
         named = listed and all(knows(filler) for filler in wish.fillers)
         least = AGREED if wish.witness == "agrees" or named else ALONE  # "go to bay 1 and bay 2"
         shares = [

@@ -204,8 +204,12 @@ class BuiltinLanguage:
     def _steadily(self, tokens: Sequence[Token], names: Names) -> tuple[Parse, Reading]:
         """What words say; where a known name is what is doubtful, with each name read as one word."""
         found = steadily(shipped_tagger(), tokens, self._lexicon)
-        inside = {at for start, end in named(tokens, names) for at in range(start, end)}
-        if inside.isdisjoint(_doubtful(tokens, found[1])):
+        spans = named(tokens, names)
+        inside = {at for start, end in spans for at in range(start, end)}
+        fillers = [*found[1].loose, *(filler for wish in found[1].wishes for filler in wish.fillers)]
+        edges = {edge for filler in fillers for edge in (filler.start, filler.end)}
+        torn = any(start < edge < end for start, end in spans for edge in edges)
+        if not torn and inside.isdisjoint(_doubtful(tokens, found[1])):
             return found
         other = steadily(shipped_tagger(), tokens, self._lexicon, names)
         return found if not other[1].wishes or _doubtful(tokens, other[1]) else other

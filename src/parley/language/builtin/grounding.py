@@ -216,9 +216,9 @@ class Grounder:
     def _unknown(self, text: str, frame: str, *, sought: bool) -> Ask:
         """That nothing is called so, with what is near and known: nobody knows all that a robot knows."""
         if text[:1].isupper():
-            return Ask(f"I do not know where {text} is. Please tell me where.")
+            return Ask(f"I do not know where {text} is. Please tell me where.", where=text)
         if sought:
-            return Ask(f"I know of no “{text}”. Please tell me where to find it.")
+            return Ask(f"I know of no “{text}”. Please tell me where to find it.", where=f"the {text}")
         leads = frame == "GO"
         pose, objects = self.situation.robot_pose, self.situation.objects
         near = sorted(objects, key=lambda item: distance_m(item, pose)) if pose is not None else objects

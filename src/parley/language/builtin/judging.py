@@ -71,6 +71,8 @@ def _stated(words: tuple[str, ...]) -> Asked:
         return Asked("state")
     if words[0] == "there":
         thing, place = _placed(words[at + 1 :])
+        if {"enough", "room", "space"} & {*thing}:  # how much that is, nobody sees here
+            return Asked("state")
         holds = not {*thing} & {"no", "nobody", "nothing"}
         return Asked("thing", _bare(thing), place, holds, holds and _is_unwanted(thing))
     state = [word for word in words[at + 1 :] if word not in ("completely", "still", "really", "all")]

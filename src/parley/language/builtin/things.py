@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -206,7 +207,20 @@ def _rank(wanted: tuple[str, ...], known: tuple[str, ...]) -> int:
         return 3
     if len(wanted[-1]) > 3 and len(known) == 1 and known[0].endswith(wanted[-1]):
         return 4
+    name = _naming(known)
+    found = [next((at for at, word in enumerate(name) if _same_root(one, word)), -1) for one in wanted]
+    told = any(len(name[at]) == 1 or name[at].isdigit() for at in found if at >= 0)  # "store B"
+    if len(wanted) > 1 and -1 not in found and (told or name[found[-1]] == main_word(_kind(known))):
+        return 5
     return 9
+
+
+_ROOT = re.compile(r"(?<=\w{4})(?:ing|age|er|ed|ion|or)$")
+
+
+def _same_root(one: str, other: str) -> bool:
+    """Whether two words are one but for their ending: "storage" and "storing"."""
+    return one == other or (len(one) > 4 and _ROOT.sub("", one) == _ROOT.sub("", other))
 
 
 _PLACING = frozenset({

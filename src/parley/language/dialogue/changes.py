@@ -59,6 +59,7 @@ _ADDING: Final = re.compile(
     r"besides|plus|include|append|on top|later|when you are done|when done|next)\b"
 )
 _ALSO: Final = re.compile(r"\b(?:as well|too|also|in addition|on top|besides|include)\b")
+_THEN: Final = re.compile(r"(?:(?:yes|ok|okay|sure|and|but)\W+)*(?:and|then|after (?:that|this))\b")
 _FOR_GOOD: Final = re.compile(rf"\b(?:{_GIVEN_UP}|change of plan)\b")
 """What takes back even beside "too"; "no, wait" only breaks in."""
 _ALL: Final = re.compile(
@@ -244,6 +245,9 @@ def _with_order(
     old = [visit for name in against for visit in _meant(plan, name)]
     if not old and _FRONT.search(text) is not None and not takes_back:
         return reordered(plan, [], plan, "front")
+    on_top = _ALSO.search(text) or _THEN.match(text)
+    if not (old or takes_back or situation.queue) and on_top:
+        return Change(said="That comes on top.")
     if not old and takes_back:
         old = list(plan) if _ALL.search(text) is not None else _deed_of(plan, plan[0])
     if not old:

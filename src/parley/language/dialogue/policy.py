@@ -144,6 +144,8 @@ def _about_itself(
     """A question about the robot, a wish to forget, a word to wait."""
     bare = plain(tokens, (situation.robot,))
     question = None if is_promised(bare, situation.catalogue) else question_of(bare)
+    if question is None and situation.message.rstrip().endswith("?"):  # "Kim looked for you, where were you?"
+        question = question_of(plain(tokenize(_LAST.sub("", situation.message)), (situation.robot,)))
     asked = situation.dialogue.asked
     if not bare and not situation.question:  # nothing but its name
         return Answer("Yes, I hear you: I read every word.")
@@ -168,6 +170,10 @@ def _about_itself(
     if is_thinking(situation.message if situation.question else bare):
         return Answer("Take your time. I wait.")
     return None
+
+
+_LAST: Final = re.compile(r"^.*[,.;!–-]\s+(?=\S)", re.DOTALL)
+"""All but the last piece of a message."""
 
 
 def _about_what_was_said(
@@ -283,7 +289,9 @@ def _beyond(
 
 
 def _known_plan(situation: Situation) -> bool:
-    return bool(situation.queue) or situation.dialogue.proposal is not None
+    dialogue = situation.dialogue
+    asks_where = dialogue.asked is not None and bool(dialogue.asked.where)
+    return bool(situation.queue) or dialogue.proposal is not None or asks_where
 
 
 def promised(situation: Situation, lexicon: Lexicon, again: Again) -> Answer | None:
@@ -390,6 +398,8 @@ def _asked_again(
     None of them may be meant too: then nothing is asked any more.
     """
     asked = situation.dialogue.asked
+    if asked is not None and asked.where and gives_up(situation.message, situation.robots):
+        return Answer("All right, then I leave it.")
     short = sum(token.is_word for token in tokens) <= _ANSWER
     answers = asked is not None and asked.choices and not (made.choices or made.offer or made.stops)
     told = "told" in reading.acts and tells([token.low for token in tokens if token.is_word])

@@ -64,7 +64,11 @@ def told_place(situation: Situation, lexicon: Lexicon) -> Decision | None:
 
 def answered_place(situation: Situation, lexicon: Lexicon, again: Again) -> Decision | None:
     """What comes of the order that was asked about, where the message says which place it is near."""
-    asked, said = situation.dialogue.asked, _ANSWER.fullmatch(_plain(situation.message))
+    asked = situation.dialogue.asked
+    whole = _plain(situation.message)
+    if "," in whole and not _place(whole, situation, lexicon):  # "in the kitchen, on the counter"
+        whole = whole.rpartition(",")[2].strip()
+    said = _ANSWER.fullmatch(whole)
     if asked is None or not asked.where or said is None or situation.message.rstrip().endswith("?"):
         return None
     where: str | Ask | None = chosen(said["where"].split(), asked.choices) or _place(
@@ -76,7 +80,9 @@ def answered_place(situation: Situation, lexicon: Lexicon, again: Again) -> Deci
         return None
     told = _told(_who(situation) if asked.where == "you" else asked.where, said["side"] or "near", where)
     made = again(asked.words, told=(MemoryEntry(name=told.name, data=told.text),))
-    return replace(made, told=(told, *made.told), about=asked.words) if isinstance(made, Do) else None
+    if not isinstance(made, Do | Ask) or (isinstance(made, Ask) and not (made.where or made.choices)):
+        return None
+    return replace(made, told=(told, *made.told), about=asked.words)  # there may be more to ask
 
 
 def _plain(message: str) -> str:
