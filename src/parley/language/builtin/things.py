@@ -219,7 +219,7 @@ _ROOT = re.compile(r"(?<=\w{4})(?:ing|age|er|ed|ion|or)$")
 
 
 def _same_root(one: str, other: str) -> bool:
-    """Whether two words are one but for their ending: "storage" and "storing"."""
+    """Whether two words are one but for their ending: "holder" and "holding"."""
     return one == other or (len(one) > 4 and _ROOT.sub("", one) == _ROOT.sub("", other))
 
 

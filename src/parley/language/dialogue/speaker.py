@@ -66,7 +66,7 @@ def answered_place(situation: Situation, lexicon: Lexicon, again: Again) -> Deci
     """What comes of the order that was asked about, where the message says which place it is near."""
     asked = situation.dialogue.asked
     whole = _plain(situation.message)
-    if "," in whole and not _place(whole, situation, lexicon):  # "in the kitchen, on the counter"
+    if "," in whole and not _place(whole, situation, lexicon):  # "in the yard, by the gate"
         whole = whole.rpartition(",")[2].strip()
     said = _ANSWER.fullmatch(whole)
     if asked is None or not asked.where or said is None or situation.message.rstrip().endswith("?"):
