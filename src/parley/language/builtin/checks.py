@@ -70,7 +70,9 @@ def check(builder: Ways, words: Sequence[str], text: str) -> Look | Ask:
         if isinstance(way, Ask):
             return way
         if place is None and not builder.at:
-            return Ask(f"Where shall I look whether {text}?")
+            who, being, _ = text.partition(" is ")
+            named = bool(being) and who.lower() not in builder.lexicon.classes["pronouns"]
+            return Ask(f"Where shall I look whether {text}?", where=who if named else "")
         seen = text.split(maxsplit=2)[2] if sees else ""
         frame, said = ("FIND", {"T": seen}) if sees else ("LOOK", {"K": statement})
         deed = Deed(frame, looked, {slot: seen or statement}, said)

@@ -15,6 +15,7 @@ from parley.language.builtin.checks import whole_names
 from parley.language.builtin.decision import Answer, Ask, Control, Decision, Deed, Do, Remember, Told
 from parley.language.builtin.deeds import Builder
 from parley.language.builtin.facts import places, rule_of, told_of
+from parley.language.builtin.heard import Heard
 from parley.language.builtin.lexicon import Lexicon, stem
 from parley.language.builtin.listings import listing
 from parley.language.builtin.planner import Planner, contradicted, orders_of
@@ -24,7 +25,7 @@ from parley.language.builtin.sights import sight_asked_for
 from parley.language.builtin.skills import Skills
 from parley.language.builtin.spans import Filler
 from parley.language.builtin.structure import Part, Unclear, arranged
-from parley.language.builtin.tokens import Token, spoken, tokenize
+from parley.language.builtin.tokens import spoken, tokenize
 from parley.language.builtin.wishes import Wish
 from parley.language.dialogue import policy
 from parley.language.dialogue.facts import is_report, is_wish, own_words
@@ -56,7 +57,8 @@ def decide(
         again: Decides about a part of the message, or about what was said before.
     """
     tokens = spoken(tokenize(situation.message)) or tokenize(situation.message)
-    made = _decided(situation, tokens, parts, skills, lexicon, reader, again)
+    whole = reader(situation.message)
+    made = _decided(Heard(situation, tokens, parts, whole, skills, lexicon, reader, again))
     made = for_nobody(made, situation, tokens, lexicon, again) or made
     called = addressed(situation, tokens) if isinstance(made, Ask) else ()
     if isinstance(made, Ask) and not isinstance(called, Ask) and situation.robot not in called:
@@ -64,51 +66,39 @@ def decide(
     return made
 
 
-def _decided(
-    situation: Situation,
-    tokens: Sequence[Token],
-    parts: tuple[Part, ...],
-    skills: Skills,
-    lexicon: Lexicon,
-    reader: Callable[[str], Reading],
-    again: Again,
-) -> Decision:
-    def told_in(text: str) -> tuple[Told, ...]:
-        starts = [token.start for token in spoken(tokenize(text)) or tokenize(text)]
-        return told_of(reader(text), text, starts, lexicon)
-
-    whole = reader(situation.message)
-    indirect = meant(tokens, (situation.robot,), lexicon, again)
+def _decided(heard: Heard) -> Decision:
+    situation, lexicon, whole = heard.situation, heard.lexicon, heard.reading
+    indirect = meant(heard.tokens, (situation.robot,), lexicon, heard.again)
     if indirect is not None:
         return indirect
-    early = policy.beforehand(situation, whole, tokens, lexicon, told_in, reader, again)
+    early = policy.beforehand(heard)
     if early is not None:
         return early
     listed = listing(situation.message, situation.objects, lexicon)
     if listed is not None:
         return Remember((listed,))
-    rule = rule_of(parts, situation.message, lexicon)
+    rule = rule_of(heard.parts, situation.message, lexicon)
     if rule is not None:
         return Remember((rule,))
-    made = _alone(situation, parts, skills, lexicon, reader)
-    if _asks_ability(situation.message, whole, lexicon) and orders_of(whole)[0].frame in skills:
+    made = _alone(heard)
+    if _asks_ability(situation.message, whole, lexicon) and orders_of(whole)[0].frame in heard.skills:
         return Answer("Yes, I can do that. Tell me which, and I will.")
     if isinstance(made, Answer) and not made.sources and "question" in whole.acts and not situation.question:
-        made = _looking(situation, tokens, skills, lexicon, again) or made
+        made = _looking(heard) or made
     open_ask = isinstance(made, Ask) and not (made.choices or made.alarms or made.where)
     if open_ask and not situation.question and "told" not in whole.acts:
-        made = _sight(situation, tokens, skills, lexicon) or made
-    if isinstance(made, Ask) and (promise := policy.promised(situation, lexicon, again)) is not None:
+        made = _sight(heard) or made
+    if isinstance(made, Ask) and (promise := policy.promised(situation, lexicon, heard.again)) is not None:
         return promise
-    made = policy.afterwards(made, situation, whole, tokens, lexicon)
+    made = policy.afterwards(made, heard)
     if isinstance(made, Ask) and not (made.offer or made.choices or situation.queue or situation.question):
-        made = _offered(made, situation, tokens, skills, lexicon)
+        made = _offered(made, heard)
     tells = "told" in whole.acts or _I_AM.search(situation.message) is not None
     missed = isinstance(made, Do) and any("operator" in deed.arguments.values() for deed in made.deeds)
     if tells and (missed or (isinstance(made, Ask) and not made.alarms)):
-        told = policy.no_facts(_beside(situation.message, again), situation, beside=True)
-        told = told_in(situation.message) if is_report(situation.message) else told  # until somebody looks
-        made = _for_who_is_there(situation, told, again) or made
+        told = policy.no_facts(_beside(situation.message, heard.again), situation, beside=True)
+        told = heard.told_in(situation.message) if is_report(situation.message) else told  # until one looks
+        made = _for_who_is_there(situation, told, heard.again) or made
         return replace(made, told=told) if isinstance(made, Ask) else made
     return made
 
@@ -139,11 +129,10 @@ def _for_who_is_there(situation: Situation, told: tuple[Told, ...], again: Again
     return replace(orders[0], notes=notes, told=(*orders[0].told, *told))
 
 
-def _looking(
-    situation: Situation, tokens: Sequence[Token], skills: Skills, lexicon: Lexicon, again: Again
-) -> Do | Ask | None:
+def _looking(heard: Heard) -> Do | Ask | None:
     """A look where only that tells: what is there is looked at, how something is is offered to be."""
-    sight = _sight(situation, tokens, skills, lexicon)
+    situation, tokens, lexicon = heard.situation, heard.tokens, heard.lexicon
+    sight = _sight(heard)
     if sight is not None:
         return sight
     names = named(tokens, situation.objects, lexicon)
@@ -158,7 +147,7 @@ def _looking(
     called = {word for robot in situation.robots for word in robot.lower().split()}
     order = look_asked_for(tokens, names or spaces, called)
     order = f"go to the {spaces[0].text} and {order}" if order and spaces else order
-    made = again(order) if order else None
+    made = heard.again(order) if order else None
     if isinstance(made, Ask) and made.choices:
         return made
     if not isinstance(made, Do) or {*made.robots} - {situation.robot}:
@@ -169,17 +158,16 @@ def _looking(
 _IT = re.compile(r"\bit\b", re.IGNORECASE)
 
 
-def _sight(
-    situation: Situation, tokens: Sequence[Token], skills: Skills, lexicon: Lexicon
-) -> Do | Ask | None:
+def _sight(heard: Heard) -> Do | Ask | None:
     """The look that is asked for, with the way there."""
+    situation, tokens, lexicon = heard.situation, heard.tokens, heard.lexicon
     names = named(tokens, situation.objects, lexicon)
     rooms = [] if names else named(tokens, situation.rooms, lexicon)
     robots = addressed(situation, tokens)
-    sight = sight_asked_for(situation, tokens, names or rooms, lexicon, counting="COUNT" in skills)
-    if sight is None or sight.frame not in skills or situation.queue or isinstance(robots, Ask):
+    sight = sight_asked_for(situation, tokens, names or rooms, lexicon, counting="COUNT" in heard.skills)
+    if sight is None or sight.frame not in heard.skills or situation.queue or isinstance(robots, Ask):
         return None
-    builder, words = Builder(situation, skills, lexicon, ()), rooms[0].words if rooms else ()
+    builder, words = Builder(situation, heard.skills, lexicon, ()), rooms[0].words if rooms else ()
     there = Filler("G", 0, len(words), len(words) - 1, words)
     way = builder.deeds(Wish("GO", 0, "go", (there,), 1.0, "agrees")) if rooms else []
     deeds = way if isinstance(way, Ask) else builder.deeds(sight)
@@ -208,10 +196,9 @@ def _beside(message: str, again: Again) -> tuple[Told, ...]:
     return tuple(fact for one in made if isinstance(one, Remember) for fact in one.told if not fact.is_rule)
 
 
-def _offered(
-    made: Ask, situation: Situation, tokens: Sequence[Token], skills: Skills, lexicon: Lexicon
-) -> Ask:
+def _offered(made: Ask, heard: Heard) -> Ask:
     """What is amiss is not remembered, and what is only named is not driven to: to go there is offered."""
+    situation, tokens, lexicon = heard.situation, heard.tokens, heard.lexicon
     names = named(tokens, situation.objects, lexicon)
     amiss = is_report(situation.message)
     if not (amiss or policy.only_names(situation, tokens, names, lexicon)):
@@ -225,7 +212,7 @@ def _offered(
     words = tuple(places[-1].description.lower().split())
     frame, role = ("LOOK", "T") if amiss else ("GO", "G")
     about = Filler(role, 0, len(words), len(words) - 1, words)
-    deeds = Builder(situation, skills, lexicon, ()).deeds(Wish(frame, 0, "", (about,), 1.0, "agrees"))
+    deeds = Builder(situation, heard.skills, lexicon, ()).deeds(Wish(frame, 0, "", (about,), 1.0, "agrees"))
     what = f"the {places[-1].description}{' and have a look' if amiss else ''}"
     return made if isinstance(deeds, Ask) else Ask(f"Shall I go to {what}?", offer=tuple(deeds))
 
@@ -241,19 +228,14 @@ def _to_keep(made: Ask, situation: Situation, lexicon: Lexicon) -> Ask:
     return Ask(_KEEP, (f"remember that {text}",))
 
 
-def _alone(
-    situation: Situation,
-    parts: tuple[Part, ...],
-    skills: Skills,
-    lexicon: Lexicon,
-    reader: Callable[[str], Reading],
-) -> Decision:
+def _alone(heard: Heard) -> Decision:
     """What a message says by itself."""
+    situation, parts, lexicon = heard.situation, heard.parts, heard.lexicon
     told = policy.no_facts(_told(situation, parts, lexicon), situation)
     orders = [wish for part in parts for wish in orders_of(part.reading)]
     if not orders:
         whole = _whole([part.reading for part in parts if part.clause.link == "main"])
-        return _without_order(situation, whole, told, lexicon, reader)
+        return _without_order(replace(heard, reading=whole), told)
     robots = addressed(situation, tokenize(situation.message))
     if not isinstance(robots, Ask):
         together = len(situation.robots) > 1 and robots == situation.robots
@@ -265,8 +247,8 @@ def _alone(
     if doubt is not None or isinstance(nodes, Unclear):
         return doubt or Ask("Can you say it in other words?")
     now = [MemoryEntry(name=fact.name, data=fact.text) for fact in told]
-    known = places((*situation.memory, *now), reader, lexicon)
-    builder = Builder(situation, skills, lexicon, known)
+    known = places((*situation.memory, *now), heard.reader, lexicon)
+    builder = Builder(situation, heard.skills, lexicon, known)
     builder.tells = any("told" in part.reading.acts for part in parts)
     thing, person = policy.spoken_of(situation, known, lexicon)
     visits = all(wish.frame in ("GO", "LOOK", "PHOTO") for wish in orders)
@@ -363,13 +345,8 @@ def _without_call(part: Part, robots: tuple[str, ...], together: bool) -> Part:
     return replace(part, reading=replace(part.reading, left_over=left, loose=loose, unsteady=unsteady))
 
 
-def _without_order(
-    situation: Situation,
-    reading: Reading,
-    facts: tuple[Told, ...],
-    lexicon: Lexicon,
-    reader: Callable[[str], Reading],
-) -> Decision:
+def _without_order(heard: Heard, facts: tuple[Told, ...]) -> Decision:
+    situation, reading, lexicon = heard.situation, heard.reading, heard.lexicon
     command = control_of(situation.message, situation.robots)
     if command is not None:
         called = addressed(situation, tokenize(situation.message))
@@ -380,7 +357,7 @@ def _without_order(
     if "question" in reading.acts:
         before, _ = policy.spoken_of(situation, (), lexicon)
         before = before if isinstance(before, MapObject) and before not in situation.rooms else None
-        return answer(situation, reading, lexicon, reader, before)
+        return answer(situation, reading, lexicon, heard.reader, before)
     if not situation.question and situation.dialogue.asked is None and gives_up(situation.message):
         return Answer("All right.")
     if assent_of(situation.message) and not situation.question and situation.dialogue.asked is None:
@@ -391,7 +368,7 @@ def _without_order(
         leaves = policy.LEAVES.search(situation.message.lower())
         return Answer("Goodbye." if leaves else "Hello. Tell me what I can do for you.")
     if situation.message.rstrip().endswith("?"):
-        return answer(situation, reading, lexicon, reader)
+        return answer(situation, reading, lexicon, heard.reader)
     if "told" in reading.acts:
         return Ask(_NO_FACT)
     return Ask("I did not understand that. What shall I do, and with what?")

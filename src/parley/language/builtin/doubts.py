@@ -48,7 +48,7 @@ def doubt(
         what = " ".join(dict.fromkeys(" ".join(reading.unsteady).split()))
         return Ask(f"I am not sure what you mean by “{what}”. Can you say it in other words?")
     for wish in orders:
-        row = bool(orders[0].verb) or not any(one.verb for one in orders)
+        row = bool(orders[0].verb) or not any("there" in f.words for one in orders for f in one.fillers)
         listed = row and wish != orders[0] and not wish.verb and wish.frame == orders[0].frame
         named = listed and all(knows(filler) for filler in wish.fillers)
         least = AGREED if wish.witness == "agrees" or named else ALONE  # "go to bay 1 and bay 2"

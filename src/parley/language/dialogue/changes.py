@@ -384,7 +384,8 @@ def _replaced(plan: Sequence[Visit], against: Sequence[Named], wanted: Named, te
         return None
     other = _reason(old[0].said, _names_of(old[0].things), target)
     other = other if other != old[0].said else f"take {called(target.description)}"
-    gone = [*deed, *(visit for visit in old if visit not in deed)] if against else deed
+    there = [visit for visit in old if visit not in deed] if against else []  # a look there is one here
+    gone = [*deed, *itertools.dropwhile(lambda visit: not visit.things, there)]
     said = f"I do not {', nor '.join(visit.said for visit in old if visit in gone)}. Instead I {other}."
     behind = [visit for visit in _behind(plan, deed) if visit not in gone]
     return reordered(plan, gone, behind, "instead", calls, said)

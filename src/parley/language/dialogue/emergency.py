@@ -9,6 +9,7 @@ from typing import Final
 from parley.language.base import Situation
 from parley.language.builtin.decision import Ask, Decision, Do, Edit
 from parley.language.builtin.grounding import is_somebody
+from parley.language.builtin.heard import Heard
 from parley.language.builtin.lexicon import Lexicon, lemmas
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.tokens import Token, tokenize
@@ -42,24 +43,13 @@ def is_emergency(situation: Situation) -> bool:
     return situation.dialogue.asked is not None and situation.dialogue.asked.alarm
 
 
-def emergency(
-    situation: Situation,
-    tokens: Sequence[Token],
-    lexicon: Lexicon,
-    reader: Callable[[str], Reading],
-    again: Callable[[str], Decision],
-) -> Decision | None:
+def emergency(heard: Heard) -> Decision | None:
     """What is decided where somebody is in need or something is on fire; None if nothing alarms.
 
     A complaint beside a clear order is no emergency. A real one is told and asked about, with the order.
-
-    Args:
-        situation: What is known.
-        tokens: Of the message.
-        lexicon: Words.
-        reader: Reads a text.
-        again: Decides about a part of the message.
     """
+    situation, tokens, lexicon = heard.situation, heard.tokens, heard.lexicon
+    reader, again = heard.reader, heard.again
     if (helps := _helps_robot(situation, lexicon, again)) is not None:
         return helps
     text = _LOST.sub(r"\g<what>", situation.message)

@@ -10,9 +10,9 @@ from parley.gate.control import control_of
 from parley.gate.stop_words import calls_to_stop, has_stop_word
 from parley.language.base import Situation
 from parley.language.builtin.decision import Told
-from parley.language.builtin.lexicon import Lexicon, stem
+from parley.language.builtin.heard import Heard
+from parley.language.builtin.lexicon import stem
 from parley.language.builtin.reading import Reading
-from parley.language.builtin.tokens import Token
 from parley.language.dialogue.mentions import named
 from parley.language.dialogue.questions import asks
 from parley.messages.memory import MemoryEntry
@@ -127,24 +127,14 @@ def in_mind(situation: Situation) -> tuple[MemoryEntry, ...]:
     return tuple(MemoryEntry(name=f"in_mind_{at}", data=fact) for at, fact in enumerate(facts))
 
 
-def moved_fact(
-    situation: Situation, reading: Reading, tokens: Sequence[Token], lexicon: Lexicon,
-    told_in: Callable[[str], tuple[Told, ...]],
-) -> Told | None:  # fmt: skip
-    """Where something is now of which it was told just before where it is: "no, she is at the desk by now".
-
-    Args:
-        situation: What was said before among it.
-        reading: Of the message.
-        tokens: Of the message.
-        lexicon: Words.
-        told_in: The facts of a text.
-    """
+def moved_fact(heard: Heard) -> Told | None:
+    """Where something is now of which its place was told just before: "no, she is at the desk by now"."""
+    situation, reading, tokens = heard.situation, heard.reading, heard.tokens
     if "told" not in reading.acts:
         return None
     low = [token.low for token in tokens]
-    places = named(tokens, situation.objects, lexicon)
-    before = _last_fact(situation, told_in)
+    places = named(tokens, situation.objects, heard.lexicon)
+    before = _last_fact(situation, heard.told_in)
     if before is None or not places:
         return None
     place = places[-1]

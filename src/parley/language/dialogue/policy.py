@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
 
@@ -13,6 +13,7 @@ from parley.language.base import Situation
 from parley.language.builtin.answers import most_asked
 from parley.language.builtin.decision import Answer, Ask, Decision, Do, Edit, Forget, Remember, Told
 from parley.language.builtin.facts import Place
+from parley.language.builtin.heard import Heard
 from parley.language.builtin.lexicon import Lexicon, lemmas
 from parley.language.builtin.lexicon import lexicon as lexicon_of_words
 from parley.language.builtin.own import is_promised
@@ -68,56 +69,36 @@ _ANSWER: Final = 10
 """So many words a choice among several things has at most."""
 
 
-def beforehand(
-    situation: Situation,
-    reading: Reading,
-    tokens: Sequence[Token],
-    lexicon: Lexicon,
-    told_in: Callable[[str], tuple[Told, ...]],
-    reader: Callable[[str], Reading],
-    again: Again,
-) -> Decision | None:
-    """What is decided without reading orders.
-
-    Args:
-        situation: What is known.
-        reading: Of the message.
-        tokens: Of the message.
-        lexicon: Words.
-        told_in: The facts of a text.
-        reader: Reads a text.
-        again: What is decided about a part of the message, or about what was said before.
-    """
-    alarm = emergency(situation, tokens, lexicon, reader, again)
-    said = alarm or _about_itself(situation, tokens, told_in)
+def beforehand(heard: Heard) -> Decision | None:
+    """What is decided without reading orders."""
+    situation, reading, lexicon, again = heard.situation, heard.reading, heard.lexicon, heard.again
+    said = emergency(heard) or _about_itself(heard)
     if said is not None:
         return said
     asked = situation.dialogue.asked
     last = next((turn.content for turn in reversed(situation.history) if turn.role == "operator"), "")
     one = asked is not None and len(asked.choices) == 1 and asked.words == last
     if (one or is_emergency(situation)) and (agreed := _agreed(situation, reading, again)) is not None:
-        return afterwards(agreed, situation, reading, tokens, lexicon)
-    chose = answered_place(situation, lexicon, again) or choice_of(situation, tokens, again)
+        return afterwards(agreed, heard)
+    chose = answered_place(situation, lexicon, again) or choice_of(situation, heard.tokens, again)
     chose = chose or in_order(situation, again)
     if chose is not None:
         return chose
-    meant = _about_what_was_said(situation, reading, tokens, lexicon, again)
+    meant = _about_what_was_said(heard)
     if meant is not None:
         return meant
     here = told_place(situation, lexicon)
     if here is not None:
         return here
-    moved = moved_fact(situation, reading, tokens, lexicon, told_in)
-    return Remember((moved,)) if moved is not None else _of_whom(last, situation, reader, again)
+    moved = moved_fact(heard)
+    return Remember((moved,)) if moved is not None else _of_whom(last, heard)
 
 
-def _of_whom(
-    last: str, situation: Situation, reader: Callable[[str], Reading], again: Again
-) -> Remember | None:
+def _of_whom(last: str, heard: Heard) -> Remember | None:
     """What is told of "she", where it was told just before of somebody by name."""
-    said, name = _OF_ONE.match(situation.message), NAME.match(last)
-    told = said and name and reader(last).acts & {"told", "need"}
-    made = again(f"{name[0].strip()}{said['rest']}") if said and name and told else None
+    said, name = _OF_ONE.match(heard.situation.message), NAME.match(last)
+    told = said and name and heard.reader(last).acts & {"told", "need"}
+    made = heard.again(f"{name[0].strip()}{said['rest']}") if said and name and told else None
     return made if isinstance(made, Remember) else None
 
 
@@ -138,11 +119,9 @@ def _agreed(situation: Situation, reading: Reading, again: Again) -> Decision | 
     return replace(made, about=asked.words) if isinstance(made, Do) else None
 
 
-def _about_itself(
-    situation: Situation, tokens: Sequence[Token], told_in: Callable[[str], tuple[Told, ...]]
-) -> Decision | None:
+def _about_itself(heard: Heard) -> Decision | None:
     """A question about the robot, a wish to forget, a word to wait."""
-    bare = plain(tokens, (situation.robot,))
+    situation, bare = heard.situation, heard.bare
     question = None if is_promised(bare, situation.catalogue) else question_of(bare)
     if question is None and situation.message.rstrip().endswith("?"):  # "Kim looked for you, where were you?"
         question = question_of(plain(tokenize(_LAST.sub("", situation.message)), (situation.robot,)))
@@ -153,7 +132,7 @@ def _about_itself(
         return Answer(f"{differences(asked.choices, situation.objects)} Which one do you mean?")
     if question is not None and (said := answer(question, situation)):
         return Answer(said)
-    lost = taken_back(situation, bare, told_in) or forgotten(situation, bare)
+    lost = taken_back(situation, bare, heard.told_in) or forgotten(situation, bare)
     if lost and bare.startswith("forget ") and any(entry.way == "seen" for entry in lost):
         named = re.fullmatch(r"forget (?!about |all |what |that |where |everything )(.+)", bare)
         if named is not None:  # mostly that is said of what is to be done
@@ -176,14 +155,13 @@ _LAST: Final = re.compile(r"^.*[,.;!–-]\s+(?=\S)", re.DOTALL)
 """All but the last piece of a message."""
 
 
-def _about_what_was_said(
-    situation: Situation, reading: Reading, tokens: Sequence[Token], lexicon: Lexicon, again: Again
-) -> Decision | None:
+def _about_what_was_said(heard: Heard) -> Decision | None:
     """Something once more, later, instead; or what nobody like this robot can do."""
-    bare = plain(tokens, (situation.robot,))
-    if (repeated := _once_more(situation, bare)) is not None:
+    situation, reading, tokens, lexicon = heard.situation, heard.reading, heard.tokens, heard.lexicon
+    again = heard.again
+    if (repeated := _once_more(situation, heard.bare)) is not None:
         return repeated
-    if (refused := _beyond(situation, reading, tokens, lexicon)) is not None:
+    if (refused := _beyond(heard)) is not None:
         return refused
     if (less := _on_with_less(situation, again)) is not None:
         return less
@@ -197,7 +175,7 @@ def _about_what_was_said(
         asked = again(instead["rest"])
         made = _ordered(asked)
         if made is not None:
-            return afterwards(made, situation, reading, tokens, lexicon)
+            return afterwards(made, heard)
         if isinstance(asked, Ask) and asked.choices and "told" not in reading.acts:
             return asked
     change = rearranged(situation, tokens, lexicon) or change_of(situation, tokens, lexicon, orders=False)
@@ -266,10 +244,9 @@ def _once_more(situation: Situation, bare: str) -> Decision | None:
     return Edit(Change(add=last.calls, said=f"I do that again: “{last.words.strip()}”."))
 
 
-def _beyond(
-    situation: Situation, reading: Reading, tokens: Sequence[Token], lexicon: Lexicon
-) -> Decision | None:
+def _beyond(heard: Heard) -> Decision | None:
     """What none of its actions can do: said so, with the nearest thing that it can."""
+    situation, reading, tokens, lexicon = heard.situation, heard.reading, heard.tokens, heard.lexicon
     orders = [wish for wish in reading.wishes if wish.act == "order" and not wish.negated]
     verbs = {word for wish in orders for word in lemmas(wish.verb.split(" ")[0])} if orders else set()
     first = next((token.low for token in tokens if token.low not in lexicon.classes["small"]), "")
@@ -302,18 +279,9 @@ def promised(situation: Situation, lexicon: Lexicon, again: Again) -> Answer | N
     return None
 
 
-def afterwards(
-    made: Decision, situation: Situation, reading: Reading, tokens: Sequence[Token], lexicon: Lexicon
-) -> Decision:
-    """What is made of what was decided about the message alone.
-
-    Args:
-        made: That.
-        situation: What is known.
-        reading: Of the message.
-        tokens: Of the message.
-        lexicon: Words.
-    """
+def afterwards(made: Decision, heard: Heard) -> Decision:
+    """What is made of what was decided about the message alone."""
+    situation, reading, bare = heard.situation, heard.reading, heard.bare
     if isinstance(made, Do):
         if made.robots and situation.robot not in made.robots:
             return made  # nothing of what this one does or offers is meant
@@ -322,14 +290,13 @@ def afterwards(
             return Edit(Change(), made, proposal.id)  # what was only offered gives way to an order
         if (between := _in_between(made, situation)) is not None:
             return between
-        change = change_of(situation, tokens, lexicon, orders=True)
+        change = change_of(situation, heard.tokens, heard.lexicon, orders=True)
         if change is None and situation.queue and is_emergency(situation):
             change = before_all(situation)
         return made if change is None else _edit(change, situation, made)
-    bare = plain(tokens, (situation.robot,))
     if isinstance(made, Ask) and not made.offer and (hands := _handless(situation, reading)):
         return replace(made, question=f"{hands} {made.question}")
-    if isinstance(made, Ask) and (asked := _asked_again(made, situation, reading, tokens)) is not None:
+    if isinstance(made, Ask) and (asked := _asked_again(made, heard)) is not None:
         return asked
     offers = isinstance(made, Ask) and made.offer
     if isinstance(made, Ask) and not offers and (met := _INTRODUCED.fullmatch(situation.message.strip())):
@@ -342,19 +309,18 @@ def afterwards(
         return Answer("Hello. What can I do for you?" if greets else "You are welcome.")
     if offers or not isinstance(made, Ask | Answer | Remember):
         return made
-    return _of_what_is_told(made, situation, reading, tokens, lexicon)
+    return _of_what_is_told(made, heard)
 
 
-def _of_what_is_told(
-    made: Decision, situation: Situation, reading: Reading, tokens: Sequence[Token], lexicon: Lexicon
-) -> Decision:
+def _of_what_is_told(made: Decision, heard: Heard) -> Decision:
     """What is made of something that is told: it may be about the plan, or worth keeping."""
+    situation, reading = heard.situation, heard.reading
     ordered = any(wish.act == "order" for wish in reading.wishes)
-    if not ordered and (asked := _superfluous(situation, tokens, lexicon)) is not None:
+    if not ordered and (asked := _superfluous(situation, heard.tokens, heard.lexicon)) is not None:
         return asked
     if isinstance(made, Remember):
         return made
-    fact = other_fact(situation, reading, plain(tokens, (situation.robot,)))
+    fact = other_fact(situation, reading, heard.bare)
     return Remember((fact,)) if fact is not None and not _is_robots_work(fact.text, situation) else made
 
 
@@ -390,13 +356,12 @@ def _in_between(made: Do, situation: Situation) -> Decision | None:
     return _edit(change, situation, replace(made, deeds=rest))
 
 
-def _asked_again(
-    made: Ask, situation: Situation, reading: Reading, tokens: Sequence[Token]
-) -> Ask | Answer | None:
+def _asked_again(made: Ask, heard: Heard) -> Ask | Answer | None:
     """The question which of several things is meant, once more, where an answer to it says nothing.
 
     None of them may be meant too: then nothing is asked any more.
     """
+    situation, reading, tokens = heard.situation, heard.reading, heard.tokens
     asked = situation.dialogue.asked
     if asked is not None and asked.where and gives_up(situation.message, situation.robots):
         return Answer("All right, then I leave it.")
@@ -407,8 +372,7 @@ def _asked_again(
         return None
     if not {*asked.choices} <= {item.description for item in situation.objects}:
         return None
-    bare = plain(tokens, (situation.robot,))
-    if gives_up(situation.message, situation.robots) or _NONE.fullmatch(bare):
+    if gives_up(situation.message, situation.robots) or _NONE.fullmatch(heard.bare):
         return Answer("All right, then I leave it.")
     return Ask(f"I did not understand that. {which_one(asked.choices)}")
 

@@ -31,7 +31,7 @@ _HERE: Final = re.compile(
 )
 _ANSWER: Final = re.compile(
     r"(?:(?:ok|okay|well|oh|yes|sorry|so|please|it is|it's|that is|that's|i'm|i am|we're|we are|probably|"
-    r"he is|he's|she is|she's|they are|they're|"
+    r"(?:he|she|they|it)(?:'s|'re| is| are| (?:should|must|might|may|will) be)|i think|maybe|try|look|"
     r"sitting|standing)\W+)*"
     rf"(?:{_AT})?(?P<where>.+)"
 )
