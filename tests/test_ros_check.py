@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from parley.config import NetworkSettings, Ros2Settings
+from parley.doctor import Subject, examine
 from parley.errors import ConfigError
+from parley.findings import Finding
 from parley.ros_check import PACKAGES, Sourced, need_ros
 
 SUFFIX = ".cpython-312-x86_64-linux-gnu.so"
@@ -86,3 +90,32 @@ def test_a_ros_that_can_be_used_is_told_with_its_rmw_and_domain(tmp_path: Path) 
     (finding,) = here.findings()
     assert (finding.state, finding.text) == ("ok", "jazzy, rmw_fastrtps_cpp, domain 7")
     need_ros(here)
+
+
+def test_the_domain_of_the_settings_is_told_and_that_of_the_window_beside_it(tmp_path: Path) -> None:
+    here = replace(machine(tmp_path, with_variable("ROS_DOMAIN_ID", "7")), domain=42)
+    (finding,) = here.findings()
+    assert finding.text.endswith("domain 42 by the settings (ROS_DOMAIN_ID of this window: 7)")
+    assert next(replace(here, domain=7).findings()).text.endswith("domain 7")
+
+
+def test_a_window_whose_domain_makes_no_sense_is_no_matter_where_the_settings_name_one(
+    tmp_path: Path,
+) -> None:
+    need_ros(replace(machine(tmp_path, with_variable("ROS_DOMAIN_ID", "ward 3")), domain=42))
+
+
+def test_doctor_asks_for_the_domain_of_the_settings(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    asked: list[int | None] = []
+
+    def examine_ros(domain: int | None) -> tuple[Finding, ...]:
+        asked.append(domain)
+        return ()
+
+    monkeypatch.setattr("parley.doctor.examine_ros", examine_ros)
+    for network in (None, NetworkSettings(ros2=Ros2Settings(domain=42))):
+        subject = Subject(data_dir=tmp_path, static_dir=tmp_path, port=8690, network=network)
+        for finding in examine(subject):
+            if finding.subject == "network":
+                break
+    assert asked == [None, 42]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from parley.config import SystemConfig
 from parley.extras import needs
-from parley.ros_check import need_ros
+from parley.ros_check import Sourced, need_ros
 from parley.transport.base import Transport
 from parley.transport.local import LocalTransport
 
@@ -30,7 +30,7 @@ def transport_of(config: SystemConfig, *, node: str = "parley", release: str = "
             from parley.transport.rosbridge import RosbridgeTransport
         return RosbridgeTransport(config.network.rosbridge, silence_s=config.network.silence_s)
     if (ros2 := config.network.ros2) is not None:
-        need_ros()
+        need_ros(Sourced(domain=ros2.domain))
         from parley.transport.ros2 import Ros2Transport
 
         return Ros2Transport(

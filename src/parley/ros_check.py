@@ -35,6 +35,8 @@ class Sourced:
     """How names of compiled modules end that this Python can load."""
     packages: Sequence[str] = PACKAGES
     """Whose messages are needed."""
+    domain: int | None = None
+    """As the settings say; None: as ROS_DOMAIN_ID does."""
 
     def findings(self) -> Iterator[Finding]:
         """What is wrong, the first thing to mend first, or what is there."""
@@ -55,7 +57,7 @@ class Sourced:
             return
         wrong = [*self._rmw(), *self._domain(), *self._packages()]
         rmw = self.environ.get("RMW_IMPLEMENTATION", "its usual RMW")
-        told = f"{distro or 'found'}, {rmw}, domain {self.environ.get('ROS_DOMAIN_ID') or 0}"
+        told = f"{distro or 'found'}, {rmw}, domain {self._told_domain()}"
         if self._is_alone():
             told += "; only this machine is seen (ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_LOCALHOST_ONLY)"
         yield from wrong or [Finding("ROS 2", "ok", told)]
@@ -82,8 +84,14 @@ class Sourced:
             text = f"RMW_IMPLEMENTATION is {wanted}, and that is not installed."
             yield Finding("ROS 2", "wrong", text, f"Run: sudo apt install {package}; or unset it.")
 
+    def _told_domain(self) -> str:
+        here = self.environ.get("ROS_DOMAIN_ID") or "0"
+        if self.domain is None or str(self.domain) == here:
+            return here
+        return f"{self.domain} by the settings (ROS_DOMAIN_ID of this window: {here})"
+
     def _domain(self) -> Iterator[Finding]:
-        domain = self.environ.get("ROS_DOMAIN_ID", "")
+        domain = self.environ.get("ROS_DOMAIN_ID", "") if self.domain is None else ""
         if domain and not (domain.isdecimal() and int(domain) in DOMAINS):
             text = f"ROS_DOMAIN_ID is {domain!r}."
             yield Finding(
@@ -97,9 +105,9 @@ class Sourced:
             yield Finding("ROS 2", "missing", text, _BUILD)
 
 
-def examine_ros() -> Iterator[Finding]:
-    """Look at the ROS of this process."""
-    yield from Sourced().findings()
+def examine_ros(domain: int | None = None) -> Iterator[Finding]:
+    """Look at the ROS of this process; `domain` as the settings say, None: they do not."""
+    yield from Sourced(domain=domain).findings()
 
 
 def need_ros(sourced: Sourced | None = None) -> None:
