@@ -163,6 +163,14 @@ def test_a_robot_may_find_it_before_it_is_heard_here() -> None:
     assert wrong.on_answer(SAID) == []
 
 
+def test_what_a_robot_tells_of_long_before_it_is_said_waits_for_nobody() -> None:
+    now = [0.0]
+    wrong = WrongAnswers(lambda: now[0])
+    wrong.on_aside(TOLD)
+    now[0] = 61.0
+    assert wrong.on_answer(SAID) == []
+
+
 @pytest.mark.parametrize(
     ("aside", "after_s"),
     [

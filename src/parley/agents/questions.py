@@ -138,24 +138,24 @@ class WrongAnswers:
     def __init__(self, now_s: Callable[[], float]) -> None:
         self._now_s = now_s
         self._answers: Latest[tuple[str, str], tuple[ChatInput, float]] = Latest(_KEPT_QUESTIONS)
-        self._early: Latest[tuple[str, str], Aside] = Latest(_KEPT_QUESTIONS)
-        """What is told of before it is heard here."""
+        self._early: Latest[tuple[str, str], tuple[Aside, float]] = Latest(_KEPT_QUESTIONS)
+        """What is told of before it is heard here, and when: a robot cannot have heard it long before."""
 
     def on_answer(self, said: ChatInput) -> list[ChatInput]:
         """A person answers; the messages that robots already took it for."""
-        keys = [(_key(target), said.id or said.message) for target in said.targets]
+        keys, now_s = [(_key(target), said.id or said.message) for target in said.targets], self._now_s()
         for key in keys:
-            self._answers[key] = said, self._now_s()
-        return [
-            made for key in keys if (early := self._early.pop(key, None)) and (made := self.on_aside(early))
-        ]
+            self._answers[key] = said, now_s
+        told = [early for key in keys if (early := self._early.pop(key, None))]
+        found = [self.on_aside(aside) for aside, at_s in told if now_s - at_s <= _ASIDE_WITHIN_S]
+        return [made for made in found if made is not None]
 
     def on_aside(self, aside: Aside) -> ChatInput | None:
         """A robot found an answer to be none; the message that it is, if a person said so."""
         key = _key(aside.actor), aside.id or aside.message
         said, at_s = self._answers.pop(key, (None, 0.0))
         if said is None:
-            self._early[key] = aside
+            self._early[key] = aside, self._now_s()
         if (
             said is None
             or said.reply_to not in ("", aside.reply_to)
