@@ -48,6 +48,8 @@ class Parts:
     eye: NetworkSettings = field(default_factory=NetworkSettings)
     speed: str = "1"
     """Of the simulator that stands behind Nav2, where it is a part."""
+    beside: Path | None = None
+    """Settings of an engine that reaches its robot without the router; None: through it."""
     processes: dict[str, asyncio.subprocess.Process] = field(default_factory=dict)
     statuses: dict[str, ActorStatus] = field(default_factory=dict)
     """The newest heartbeat of each robot."""
@@ -83,6 +85,8 @@ class Parts:
         if one:
             words = ["engine", "--world", "fleet", "--robot", one, "--data", str(self.folder / part)]
         settings = self.door if part == "simulator" else self.settings
+        if part == "engine" and self.beside is not None:
+            settings = self.beside
         self.processes[part] = await asyncio.create_subprocess_exec(
             sys.executable, "-m", "parley", *words, "--config", str(settings), *options,
             stdout=asyncio.subprocess.DEVNULL,
@@ -135,25 +139,43 @@ class Parts:
 
 
 @asynccontextmanager
-async def parts(folder: Path, *names: str, speed: str = "1") -> AsyncIterator[Parts]:
-    """These parts, up and running; where a router is among them, all meet there and nowhere else."""
+async def parts(
+    folder: Path, *names: str, speed: str = "1", beside: bool = False, settings_text: str = ""
+) -> AsyncIterator[Parts]:
+    """These parts, up and running; where a router is among them, all meet there and nowhere else.
+
+    Args:
+        folder: Where they keep things.
+        names: Which.
+        speed: Of a simulator that is a part.
+        beside: Whether engine and simulator hear each other without the router, and each other only.
+        settings_text: What all have in their settings besides.
+    """
     at = f"tcp/127.0.0.1:{free_port()}"
     # The operator is the one whom all others connect to, as it is the one who stays.
     role, settings = "client" if "router" in names else "peer", folder / "parley.yaml"
     network = NetworkSettings(domain=DOMAIN, role=role, connect=(at,), interface="")
     settings.write_text(
-        f"network: {{domain: {DOMAIN}, role: {role}, connect: [{at}], interface: ''}}\n", encoding="utf-8"
+        f"network: {{domain: {DOMAIN}, role: {role}, connect: [{at}], interface: ''}}\n{settings_text}",
+        encoding="utf-8",
     )
     robot = folder / "robot.yaml" if "simulator" in names else None
     seen = f"tcp/127.0.0.1:{free_port()}"
     if robot is not None:
         robot.write_text(ROBOT_FILE, encoding="utf-8")
         (folder / "door.yaml").write_text(
-            f"network: {{domain: {DOMAIN}, listen: [{seen}], connect: [{at}], interface: ''}}\n",
+            f"network: {{domain: {DOMAIN}, listen: [{seen}], interface: '',"
+            f" connect: [{'' if beside else at}]}}\n",
             encoding="utf-8",
         )
     eye = NetworkSettings(domain=DOMAIN, role="client", connect=(seen,), interface="")
     made = Parts(folder, settings, free_port(), robot, folder / "door.yaml", eye, speed)
+    if beside:
+        made.beside = folder / "beside.yaml"
+        made.beside.write_text(
+            f"network: {{domain: {DOMAIN}, connect: [{at}, {seen}], interface: ''}}\n{settings_text}",
+            encoding="utf-8",
+        )
     async with AsyncExitStack() as stack:
         stack.push_async_callback(made.end)
         for name in (name for name in names if name in ("router", "simulator")):

@@ -13,12 +13,14 @@ import pytest
 from parley.clock import WallClock
 from parley.demos.catalogue import load_demo
 from parley.demos.runner import play
+from parley.engine.hearing import TELL_S
 from parley.messages import topics
 from parley.messages.principal import person
 from parley.messages.status import ActorStatus, StopCommand
 from parley.messages.wire import to_string
 from parley.transport.base import Transport
 from tests.parts import ROBOT, parts, until_open
+from tests.soak.test_parts import driving, pressed, says_who_does_not_answer
 
 
 async def test_each_half_is_killed_under_way_and_nothing_is_lost_or_done_twice(tmp_path: Path) -> None:
@@ -51,6 +53,27 @@ async def test_each_half_is_killed_under_way_and_nothing_is_lost_or_done_twice(t
         await operator.until(lambda: operator.state(ROBOT) == "idle")
         assert [step.state for step in operator.plans[ROBOT].steps][-2:] == ["finished", "finished"]
         assert (system.begun("NavigateTo"), system.begun("Inspect")) == (2, 1)
+
+
+async def test_a_robot_whose_engine_hears_no_page_any_more_stands_and_a_stop_of_meanwhile_wins(
+    tmp_path: Path,
+) -> None:
+    async with driving(tmp_path, beside=True) as (system, page, eye):
+        system.freeze("router")
+        await eye.until(lambda speed_mps: speed_mps < 0.02, 1.0)
+        await asyncio.sleep(TELL_S)  # of less it would not speak
+        system.thaw("router")
+        await eye.until(lambda speed_mps: speed_mps > 0.1, 10.0)
+        await system.operator.until(lambda: system.heard("I heard no page"))
+
+        system.freeze("router")
+        await eye.until(lambda speed_mps: speed_mps < 0.02, 1.0)
+        await pressed(system, page, "router")
+        await says_who_does_not_answer(page, "router")
+        system.thaw("router")
+        await page.until("stop", "state", is_="at_rest")
+        await asyncio.sleep(2.0)
+        assert eye.speed_mps < 0.02 and system.begun("NavigateTo") == 1
 
 
 @pytest.mark.timeout(300)

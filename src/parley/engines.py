@@ -23,6 +23,7 @@ from parley.agents.mates import Mates
 from parley.agents.notices import Notifier
 from parley.config import SystemConfig
 from parley.engine.engine import ActionEngine
+from parley.engine.hearing import Hearing
 from parley.engine.journal import Journal
 from parley.engine.presence import is_at_rest
 from parley.engine.services import ContextServices
@@ -233,6 +234,9 @@ class Engines(OpenedTogether):
         watchdog = LoopWatchdog(self._line, self.names, clock, self.tell)
         watchdog.open()
         stack.push_async_callback(watchdog.close)
+        hearing = Hearing(self._line, self.names, self._transport, clock, self.tell)
+        await hearing.open()
+        stack.push_async_callback(hearing.close)
         for name in self.names:
             self._describe(name)
         heard = await self._transport.subscribe(topics.PLACES_KEPT, self._on_places, depth=1)

@@ -454,6 +454,13 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "words": "stop!!",
         "stops": ["51"],
     },
+    status.Pulse: {
+        "server": "8c1f",
+        "stops": [
+            {"command": "stop", "targets": ["A"], "id": "1", "by": KIM, "words": "stop!!", "stops": ["51"]}
+        ],
+        "leaving": True,
+    },
     status.StopReport: {"actor": "A", "id": "1", "state": "at_rest"},
     status.SyncEntry: SYNC_ENTRY,
     status.SyncNotice: {

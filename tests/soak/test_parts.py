@@ -85,10 +85,10 @@ class Eye:
 
 
 @asynccontextmanager
-async def driving(folder: Path) -> AsyncIterator[tuple[Parts, Page, Eye]]:
-    """All parts up, and the robot under way."""
+async def driving(folder: Path, *, beside: bool = False) -> AsyncIterator[tuple[Parts, Page, Eye]]:
+    """All parts up, and the robot under way; `beside`: its engine reaches it without the router."""
     async with AsyncExitStack() as stack:
-        system = await stack.enter_async_context(parts(folder, *EVERY))
+        system = await stack.enter_async_context(parts(folder, *EVERY, beside=beside))
         page = Page(
             await stack.enter_async_context(
                 httpx.AsyncClient(base_url=f"http://127.0.0.1:{system.port}", timeout=10)

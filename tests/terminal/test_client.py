@@ -19,8 +19,8 @@ from parley.messages.chat import ChatInput, ChatRead
 from parley.messages.memory import MemoryReply, StoredMemory
 from parley.messages.principal import person
 from parley.messages.ros import ChatRequest, ChatResponse, String
-from parley.messages.status import PlanProposal
-from parley.messages.wire import encode
+from parley.messages.status import PlanProposal, Pulse, StopReport
+from parley.messages.wire import decode, encode
 from parley.terminal import TerminalClient
 from parley.terminal.console import ConsoleEvents, PlainConsole
 from parley.transport.local import LocalTransport
@@ -345,3 +345,15 @@ async def test_nothing_is_left_open() -> None:
             robots.appear()
             await running
         assert transport.endpoints() == before
+
+
+async def test_a_stop_that_no_robot_confirmed_goes_with_each_sign_of_life_of_the_terminal() -> None:
+    pulses: list[Pulse] = []
+    async with opened() as session:
+        await session.transport.subscribe(topics.PULSE, lambda told: pulses.append(decode(Pulse, told.data)))
+        session.robots.appear()
+        await session.shows("Ada")
+        session.type("/stop")
+        await until(lambda: pulses and [stop.targets for stop in pulses[-1].stops] == [("Ada",)])
+        session.robots.tell(topics.STOP_REPORT, StopReport(actor="Ada", id="s1", state="received"))
+        await until(lambda: not pulses[-1].stops)

@@ -20,13 +20,16 @@ from websockets.typing import Origin
 
 from parley.clock import Clock
 from parley.gate.stop_line import StopLine
-from parley.messages.status import StopCommand
+from parley.messages import topics
+from parley.messages.status import Pulse, StopCommand, StopReport
+from parley.messages.wire import decode
 from parley.transport.local import LocalTransport
 from parley.web import stop_desk
 from parley.web.config import WebConfig
 from parley.web.robot_state import STOP_DEADLINE_S
 from parley.web.server import WebServer
-from tests.web.rig import HandClock, Rig, Robots
+from tests.transport.backends import until
+from tests.web.rig import HandClock, Rig, Robots, served
 
 BLOCKED_S = 1.5
 """For so long the loop of the product does nothing; a stop that had to wait for it would be as late."""
@@ -230,3 +233,17 @@ async def test_a_reset_that_is_heard_late_does_not_release_what_was_stopped_sinc
         (late,) = [heard for heard in rig.robots.stops if heard.command == "reset"]
         drive.line.reset(late.targets, by=late.by, id=late.id)
         assert drive.line.latched("Ada")
+
+
+async def test_a_stop_that_no_robot_confirmed_goes_with_each_sign_of_life_of_the_page() -> None:
+    pulses: list[Pulse] = []
+    async with served("Ada") as rig:
+        await rig.server.backend.transport.subscribe(
+            topics.PULSE, lambda told: pulses.append(decode(Pulse, told.data))
+        )
+        await until(lambda: pulses and not pulses[-1].stops)
+        await rig.http.post("/api/stop", json={"id": "s1", "targets": ["Ada"]})
+        await until(lambda: [(stop.id, stop.targets) for stop in pulses[-1].stops] == [("s1", ("Ada",))])
+        rig.robots.tell(topics.STOP_REPORT, StopReport(actor="Ada", id="s1", state="received"))
+        await until(lambda: not pulses[-1].stops)
+    assert pulses[-1].leaving, "who ends in order holds nobody"

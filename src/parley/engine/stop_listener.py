@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import uuid
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import AsyncExitStack
+from contextlib import AsyncExitStack, suppress
 from typing import Final
 
 from parley.errors import InvalidMessageError, Problem
 from parley.gate.stop_line import StopLine
 from parley.latest import Latest
 from parley.messages import ros, topics
-from parley.messages.status import ActorStatus, StopCommand
+from parley.messages.status import ActorStatus, Pulse, StopCommand
 from parley.messages.wire import decode, to_string
 from parley.transport.base import Publisher, Transport
 
@@ -57,6 +57,8 @@ class StopListener:
         """Listen from now on."""
         subscription = await self._transport.subscribe(topics.STOP, self._take, depth=DEPTH)
         self._stack.push_async_callback(subscription.close)
+        pulses = await self._transport.subscribe(topics.PULSE, self._on_pulse, along=subscription)
+        self._stack.push_async_callback(pulses.close)
         if self._only is not None:
             return
         publisher = self._publisher = self._transport.publisher(topics.STOP)
@@ -74,6 +76,18 @@ class StopListener:
         except InvalidMessageError as error:
             self._complain([Problem(error.path, error.problem, code="malformed")])
             return
+        self._carry_out(command)
+
+    def _on_pulse(self, message: ros.String) -> None:
+        """Stops that were pressed while this robot was out of reach come with the first sign of the page."""
+        with suppress(InvalidMessageError):  # who watches pulses says so
+            told = decode(Pulse, message.data).stops
+            for stop in [
+                stop for stop in told if stop.command == "stop" and stop.id not in ("", *self._stops)
+            ]:
+                self._carry_out(stop)
+
+    def _carry_out(self, command: StopCommand) -> None:
         targets = self._ours(command.targets)
         if command.targets and not targets:
             return

@@ -27,6 +27,7 @@ __all__ = [
     "PlanStep",
     "PlanUpdate",
     "PoseInfo",
+    "Pulse",
     "Rejection",
     "RejectionProblem",
     "StepCommand",
@@ -319,6 +320,17 @@ class StopCommand(Payload):
     stops: tuple[str, ...] = ()
     """Of `reset`: the stops that whoever releases knows of, by id. One that came after them stays in force,
     however late the release arrives. None: whichever is in force."""
+
+
+class Pulse(Payload):
+    """`/parley/pulse`: whoever is at this page or terminal could stop robots; told again and again."""
+
+    server: str
+    """Names the page's server or the terminal, for as long as it runs."""
+    stops: tuple[StopCommand, ...] = ()
+    """Emergency stops that robots have not confirmed: said until they do."""
+    leaving: bool = False
+    """It ends, in order: nobody stands still for that."""
 
 
 class StopReport(Payload):

@@ -32,6 +32,8 @@ class QoS:
     """How many each sender keeps for those who were cut off and want to hear late what they missed."""
     repeats: bool = False
     """Its messages bear ids and are said again until they are read: an equal one is the same."""
+    urgent: bool = False
+    """Waits for no other topic."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +98,7 @@ PLAN_DECISION = _string("/parley/plan_decision", kept=100, repeats=True)
 RULING = _string("/parley/ruling", depth=1000)
 STEP = _string("/parley/step")
 STOP = _string("/parley/stop", keep_all=True, kept=100, repeats=True)
+PULSE = Topic("/parley/pulse", ros.String, "std_msgs/msg/String", QoS(depth=10, urgent=True))
 STOP_REPORT = _string("/parley/stop_report", kept=100)
 REJECTION = _string("/parley/rejection", kept=100)
 SYNC = _string("/parley/sync")
@@ -131,7 +134,7 @@ ALL_TOPICS: tuple[Topic[Any], ...] = (
     DISPLAY_FEED, GRAPH_START, GRAPH_MODIFY, GRAPH_PAUSE, GRAPH_PAUSE_TEMOTO, GRAPH_RESUME, GRAPH_STOP,
     GRAPH_FEEDBACK, ACTOR_STATUS, GRAPH_EVENTS, PLAN, PLAN_DECISION, STEP, STOP, STOP_REPORT, REJECTION, SYNC,
     MEMORY_EVENT, REPLY_DRAFT, CHAT_READ, PRESS_TAKEN, INCIDENT, MAP_VIEW, AUDIT, RULING, ATTENDANCE,
-    RULES_IN_FORCE, PLACES_KEPT, MISSIONS, PASSAGES, NOTICE, ASIDE,
+    RULES_IN_FORCE, PLACES_KEPT, MISSIONS, PASSAGES, NOTICE, ASIDE, PULSE,
 )  # fmt: skip
 ALL_SERVICES = (GET_MEMORY, GRAPH_GET, GET_INCIDENTS, GET_MAP, GET_AUDIT, RULES, PLACES)
 

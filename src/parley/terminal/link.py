@@ -30,6 +30,7 @@ from parley.messages.wire import decode, decode_plan, encode, to_string
 from parley.terminal.lines import Line
 from parley.terminal.view import OperatorView
 from parley.transport.base import Publisher, Transport
+from parley.transport.desk import Desk
 
 __all__ = ["Link"]
 
@@ -64,6 +65,8 @@ class Link:
         self._publishers: dict[type[BaseModel], Publisher[String]] = {}
         self.read: Latest[str, bool] = Latest()
         """Messages that got to who reads them, by id."""
+        self._untaken: dict[str, StopCommand] = {}
+        """Stops that robots have not confirmed."""
 
     async def __aenter__(self) -> Self:
         """Open the topics."""
@@ -78,8 +81,9 @@ class Link:
         await self._listen(topics.GRAPH_EVENTS, _reader(GraphEvent), view.on_event)
         await self._listen(topics.ACTOR_STATUS, _reader(ActorStatus), self._on_status)
         await self._listen(topics.CHAT_READ, _reader(ChatRead), self._on_read)
-        await self._listen(topics.STOP_REPORT, _reader(StopReport), view.on_stop_report)
+        await self._listen(topics.STOP_REPORT, _reader(StopReport), self._on_stop_report)
         await self._listen(topics.REJECTION, _reader(Rejection), view.on_rejection)
+        await self._stack.enter_async_context(Desk(self._transport, lambda: tuple(self._untaken.values())))
         return self
 
     async def __aexit__(self, *exc: object) -> None:
@@ -89,6 +93,11 @@ class Link:
     def send(self, message: ChatInput | PlanDecision | StopCommand) -> None:
         """Publish what the operator said or decided on the topic of its kind, as theirs."""
         theirs = message.model_copy(update={"by": OPERATOR})
+        if isinstance(theirs, StopCommand):
+            for name in theirs.targets or [robot.name for robot in self._view.here]:
+                self._untaken.pop(name, None)
+                if theirs.command == "stop":
+                    self._untaken[name] = theirs.model_copy(update={"targets": (name,)})
         self._publishers[type(message)].publish(to_string(theirs))
 
     async def memories(self) -> list[MemoryEntry]:
@@ -119,6 +128,10 @@ class Link:
     def _on_read(self, read: ChatRead) -> list[Line]:
         self.read[read.id] = True
         return []
+
+    def _on_stop_report(self, report: StopReport) -> list[Line]:
+        self._untaken.pop(report.actor, None)
+        return self._view.on_stop_report(report)
 
     def _on_status(self, status: ActorStatus) -> list[Line]:
         return self._view.on_status(status, self._clock.wall_s())

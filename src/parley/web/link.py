@@ -40,6 +40,7 @@ from parley.messages.team import MissionList
 from parley.messages.topics import Service, Topic
 from parley.messages.wire import decode, decode_plan, encode, load_json, to_string
 from parley.transport.base import Publisher, Transport
+from parley.transport.desk import Desk
 from parley.transport.losses import Losses
 from parley.umrf.io import read_graph
 from parley.web.state import WebState
@@ -204,6 +205,7 @@ class Link:
         await self._listen(topics.INCIDENT, _reader(Incident), state.on_incident)
         await self._listen(topics.MISSIONS, _reader(MissionList), state.on_missions)
         await self._listen(topics.MAP_VIEW, _reader(MapView), self._on_view)
+        await self._stack.enter_async_context(Desk(self.transport, state.robots.untaken))
         for work in (self._tick(), self._fetch_incidents()):
             task = asyncio.create_task(work, name="web link")
             self._stack.push_async_callback(_cancel, task)

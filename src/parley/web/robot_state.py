@@ -164,6 +164,10 @@ class RobotBook:
         stop = self._stops.get(name)
         return None if stop is None else stop.model_copy(update={"targets": (name,)})
 
+    def untaken(self) -> tuple[StopCommand, ...]:
+        """The stops that robots have not confirmed, each robot's."""
+        return tuple(stop for name in self.views if (stop := self.not_taken(name)) is not None)
+
     def not_released(self, name: str, *, now_s: float) -> StopCommand | None:
         """The release that a robot did not hear, though it is heard itself: it was out of reach."""
         release, view = self._releases.get(name), self.views.get(name)

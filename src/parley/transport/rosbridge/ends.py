@@ -53,7 +53,8 @@ class RosbridgePublisher(Generic[M]):
     ) -> None:
         self._transport, self._topic, self._codec, self.endpoint = transport, topic, codec, endpoint
         qos = topic.qos
-        self._outbox = Outbox(topic.name, None if qos.keep_all else qos.depth, urgent=qos.keep_all)
+        urgent = qos.keep_all or qos.urgent
+        self._outbox = Outbox(topic.name, None if qos.keep_all else qos.depth, urgent=urgent)
         self._last: Frame | None = None
         self._open = True
 

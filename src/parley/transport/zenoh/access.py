@@ -66,8 +66,8 @@ _ROBOT: Final = Allowed(
     hears=_names(
         topics.ACTOR_STATUS, topics.CHAT_FEEDBACK, topics.CHAT_INPUT, topics.GRAPH_MODIFY, topics.GRAPH_PAUSE,
         topics.GRAPH_PAUSE_TEMOTO, topics.GRAPH_RESUME, topics.GRAPH_START, topics.GRAPH_STOP,
-        topics.PASSAGES, topics.PLACES_KEPT, topics.PLAN, topics.RULES_IN_FORCE, topics.STEP, topics.STOP,
-        topics.SYNC,
+        topics.PASSAGES, topics.PLACES_KEPT, topics.PLAN, topics.PULSE, topics.RULES_IN_FORCE, topics.STEP,
+        topics.STOP, topics.SYNC,
     ),
     asks=_names(topics.GET_MEMORY),
     answers=_names(topics.GRAPH_GET),
@@ -91,7 +91,7 @@ _PAGE: Final = Allowed(
     says=_names(
         topics.ADD_TO_MEMORY, topics.ATTENDANCE, topics.AUDIT, topics.CHAT_ACTION, topics.CHAT_FEEDBACK,
         topics.CHAT_INPUT, topics.GRAPH_PAUSE, topics.GRAPH_PAUSE_TEMOTO, topics.GRAPH_RESUME,
-        topics.PLAN_DECISION, topics.REMOVE_MEMORY, topics.STOP,
+        topics.PLAN_DECISION, topics.PULSE, topics.REMOVE_MEMORY, topics.STOP,
     ),
     hears=_WATCHER.hears,
     asks=_ANSWERED,

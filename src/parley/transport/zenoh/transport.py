@@ -122,10 +122,11 @@ class ZenohTransport(RemoteTransport[Graph]):
         self, topic: Topic[M], codec: remote.Codec[M], endpoint: Endpoint
     ) -> ZenohPublisher[M]:
         place, token = self._place(endpoint, topic.qos)
+        urgent = topic.qos.keep_all or topic.qos.urgent
         options: dict[str, Any] = {
             "congestion_control": _BLOCK if topic.qos.reliable else zenoh.CongestionControl.DROP,
-            "priority": zenoh.Priority.REAL_TIME if topic.qos.keep_all else zenoh.Priority.DATA,
-            "express": topic.qos.keep_all,
+            "priority": zenoh.Priority.REAL_TIME if urgent else zenoh.Priority.DATA,
+            "express": urgent,
         }
 
         def declare() -> zenoh.Publisher | ext.AdvancedPublisher:
@@ -146,7 +147,7 @@ class ZenohTransport(RemoteTransport[Graph]):
             self._show(token)
             return made
 
-        lane = self._stops if topic.qos.keep_all else self._data
+        lane = self._stops if urgent else self._data
         publisher = ZenohPublisher(self, topic, codec, lane, declare, token)
         self._opened(publisher, endpoint)
         return publisher
