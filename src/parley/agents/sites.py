@@ -83,7 +83,7 @@ class Sites(Node):
                     await self.of(robot)
 
     async def _on_status(self, status: ActorStatus) -> None:
-        if status.actor not in self._asked:
+        if status.actor not in self._asked and status.engine == "parley":
             self._asked.add(status.actor)
             await self.subscribe_raw(topics.actor_site(status.actor), self._on_site)
 
