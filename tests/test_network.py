@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import json
 import signal
 import sys
 from collections.abc import Callable
@@ -21,7 +22,7 @@ from parley.demos.observer import Observer
 from parley.errors import ConfigError, FileFormatError, UnavailableError
 from parley.messages import topics
 from parley.messages.principal import person
-from parley.messages.ros import ChatRequest, ChatResponse
+from parley.messages.ros import ChatRequest, ChatResponse, UmrfGraphStart
 from parley.messages.status import ActorStatus, StopCommand
 from parley.messages.wire import to_string
 from parley.network import transport_of
@@ -35,6 +36,7 @@ from parley.web.backend import Backend
 from parley.web.config import WebConfig
 from parley.world.geometry import Pose2D
 from tests.transport.backends import free_port, until
+from tests.umrf.spec_actions import planner_chain
 
 
 def test_without_a_network_everything_is_in_one_process() -> None:
@@ -141,6 +143,38 @@ async def test_a_robot_that_another_engine_drives_is_not_touched() -> None:
             with pytest.raises(UnavailableError, match="already"):
                 await other.__aenter__()
             assert (first.opened, second.opened) == (True, False)
+
+
+@pytest.mark.parametrize(
+    ("foreign", "rules", "ends"),
+    [
+        (False, "", "what the rules are"),
+        (True, "", "FINISHED"),
+        (True, "rules: [{id: still, kind: action, actions: [MoveBy], verdict: forbid}]", "must not do"),
+    ],
+)
+async def test_an_engine_moves_under_a_planner_that_tells_no_rules_where_its_settings_say_so(
+    tmp_path: Path, foreign: bool, rules: str, ends: str
+) -> None:
+    settings = SystemConfig(foreign_planner=foreign, rules_file=tmp_path / "rules.yaml")
+    (tmp_path / "rules.yaml").write_text(rules or "rules: []", encoding="utf-8")
+    told: list[str] = []
+    async with LocalTransport() as transport:
+        floor = WorldFile.parse(EMPTY_FLOOR)
+        async with System(floor, settings, part="robots", transport=transport):
+            await transport.subscribe(topics.GRAPH_FEEDBACK, lambda heard: told.extend(heard.history))
+            step = {
+                "name": "MoveBy",
+                "instance_id": 0,
+                "type": "sync",
+                "input_parameters": {
+                    "direction": {"pvf_type": "string", "pvf_value": "forward"},
+                    "distance": {"pvf_type": "number", "pvf_value": 0.1},
+                },
+            }
+            graph = json.dumps(planner_chain("foreign", [step]))
+            transport.publisher(topics.GRAPH_START).publish(UmrfGraphStart("", graph, ("Kim",)))
+            await until(lambda: any(ends in text for text in told), within_s=20)
 
 
 async def test_the_doctor_says_who_is_there_which_address_is_silent_and_whose_clock_is_wrong() -> None:

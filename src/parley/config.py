@@ -346,6 +346,9 @@ class SystemConfig(BaseModel, TextFile):
     """Robots for which that is otherwise, by name."""
     temoto: dict[str, str] = Field(default_factory=dict)
     """Robots whose engine is TeMoto's, by name, and the service that tells about it: `umrf_graph_get`."""
+    foreign_planner: bool = False
+    """Whether a planner that is not Parley's tells engines what to do: it tells no rules, and those of the
+    file hold."""
     network: NetworkSettings | None = None
     """Where the parts of the system hear each other; None: within one process."""
     speed: float | None = Field(default=1.0, gt=0)

@@ -31,12 +31,14 @@ from parley.engine.unfinished import Unfinished
 from parley.engine.watchdog import LoopWatchdog
 from parley.errors import ActionFailure, FileFormatError, InvalidMessageError
 from parley.gate.book import RuleBook
+from parley.gate.rules import RuleKeeper
 from parley.gate.stop_line import StopLine
 from parley.language.base import Language
 from parley.messages import ros, topics
 from parley.messages.map import PlacesKept
 from parley.messages.passages import PassageList
 from parley.messages.robot import RobotSite
+from parley.messages.rules import RuleSet
 from parley.messages.wire import decode, to_string
 from parley.opening import OpenedTogether
 from parley.robots.base import Robot
@@ -270,6 +272,15 @@ class Engines(OpenedTogether):
     def _tell_unusable(self, problem: str) -> None:
         self.tell(f"An action cannot be used: {problem}", "error")
 
+    def _first_rules(self) -> RuleBook:
+        """Those that hold until whoever plans tells its own."""
+        rules = RuleBook.unread(self._fleet.clock)
+        if self._config.foreign_planner:
+            RuleKeeper(rules, self._config.rules_path)
+            if not rules.in_force:
+                rules.replace(RuleSet())
+        return rules
+
     def _describe(self, name: str) -> None:
         facts, occupancy = self._fleet.facts(name), self._fleet.occupancy(name)
         same = (
@@ -288,7 +299,7 @@ class Engines(OpenedTogether):
     ) -> None:
         enter, transport, clock = stack.enter_async_context, self._transport, self._fleet.clock
         view = WorldView(self, name, self._fleet.occupancy(name))
-        rules = RuleBook.unread(clock)
+        rules = self._first_rules()
         rules.know(name, self._fleet.facts(name))
         robot = self.robots[name] = self._fleet.robot(name, rules)
         services = await enter(ContextServices(name, transport))
