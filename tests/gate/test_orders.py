@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import itertools
+import re
 from typing import Any
 
 import pytest
 
+from parley.gate.evidence import speaks_of_change
 from parley.gate.orders import Admitted, Heard, admit, is_chosen
+from parley.language.lexicon import load_data
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.messages.principal import Principal, person
@@ -139,3 +143,15 @@ def test_more_memories_than_anybody_tells_are_left_out_and_that_is_said() -> Non
     many = [{"add_memory": {"name": f"n{n}", "data": f"fact {n}"}} for n in range(25)]
     found = admitted("keep these", system_cmd=many)
     assert (len(found.order.system_cmd), len(found.refused)) == (20, 1)
+
+
+def test_all_ways_of_putting_a_plan_into_another_order_speak_of_a_change() -> None:
+    read = load_data("rearranging")
+    parts = read.pop("parts")
+    for template in (text for templates in read.values() for text in templates):
+        filled = re.sub(r"\{(\w+)\}", lambda found: parts[found[1]], template)
+        pieces = re.findall(r"\([^()]+\)!?|\S+", filled)  # what may be left out is left out
+        said = [piece.strip("()!").split("|") for piece in pieces if piece[0] != "(" or piece[-1] == "!"]
+        for words in itertools.product(*said):
+            text = " ".join(words).replace(" n't", "n't")
+            assert speaks_of_change(text) or "behind" in words, text  # that mostly says where something is

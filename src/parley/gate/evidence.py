@@ -27,6 +27,10 @@ _CHANGE: Final = re.compile(
     r"without|not|no|never|nope|don['’]?t|won['’]?t|needn['’]?t|isn['’]?t|doesn['’]?t|instead|rather|except|"
     r"actually|change|changed|replace|swap|other|another|different|anymore|unnecessary|enough|wrong|only|"
     r"just|"
+    r"(?:start|begin|finish)\s+(?:\w+\s+)?(?:with|at)|last|after|reverse|opposite|backwards|exchange|cut|"
+    r"switch(?!\s+o(?:n|ff)\b)|(?:take|throw|cross|put|move)\b.{1,60}?\b(?:out|off|end|front)|take\s+out|"
+    r"the\s+other\s+way|(?:can|may)\s+(?:go|be)|is\s+off|are\s+off|urgent|important|straight|jump|front|"
+    r"beginning|the\s+start|ahead\s+of|turn\s+round|nothing|cancelled|aren['’]?t|"
     r"first|before|next|but|wait|call\s+off|get\s+rid|mind|mean|meant|correction|sorry|unless|until|done|"
     r"jäta|tühista|loobu|ära|mitte|ei|pole|asemel|hoopis|unusta|kustuta|muuda|teine|lõpeta|välja|ainult|"
     r"vahele|vale)\b",

@@ -11,10 +11,10 @@ from parley.evaluation.steps import pending
 from parley.language.base import Situation, Turn
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.dialogue.changes import texts_of
-from parley.language.dialogue.state import Asked, Dialogue
+from parley.language.dialogue.state import Asked, Deed, Dialogue
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.pvf import Parameter
-from parley.messages.status import ActionInfo
+from parley.messages.status import ActionInfo, PlanStep
 from parley.world.object_map import MapObject
 
 NAMES = ("gate 1", "gate 2", "gate 3", "workshop", "paint store", "red barrel", "blue barrel")
@@ -202,3 +202,61 @@ def test_of_what_is_done_in_a_row_at_one_place_the_place_is_told_once() -> None:
     situation = replace(answer("no, the workshop first")[0], queue=queue, status="running")
     made = asyncio.run(ENGINE.interpret(situation))
     assert made.message_response == "All right, in this order: workshop, gate 1, gate 2."
+
+
+AREAS = tuple(MapObject(f"area_{letter}", f"Area {letter.upper()}", 0.0, 0.0) for letter in "abc")
+
+
+def round_of(message: str, *, over: int) -> tuple[Situation, ChatAction]:
+    """A message during a round of three areas, of which so many are over."""
+    calls = [drive(item.description) for item in AREAS]
+    steps = tuple(
+        PlanStep(
+            label=f"Go to “{item.description}”", action=call, state="finished" if at < over else "queued"
+        )
+        for at, (item, call) in enumerate(zip(AREAS, calls, strict=True))
+    )
+    deeds = tuple(Deed(step.label, step.action, ("moves",), ending="done") for step in steps[:over])
+    situation = Situation(
+        message, queue=tuple(calls[over:]), status="running", objects=AREAS, robot="Ada", robots=("Ada",),
+        catalogue=CATALOGUE, dialogue=Dialogue("running", steps, deeds=deeds),
+    )  # fmt: skip
+    return situation, asyncio.run(ENGINE.interpret(situation))
+
+
+@pytest.mark.parametrize(
+    ("said", "left"),
+    [
+        ("leave out area A", "Area B, Area C"),
+        ("skip A", "Area B, Area C"),
+        ("leave a out too", "Area B, Area C"),
+        ("forget about area A please", "Area B, Area C"),
+        ("skip A and C", "Area B"),
+        ("hm, start with C please", "Area C, Area A, Area B"),
+        ("A last", "Area B, Area C, Area A"),
+        ("no hang on, only A and B", "Area A, Area B"),
+        ("wait a bit", "Area A, Area B, Area C"),
+    ],
+)
+def test_the_letter_a_is_a_name_where_no_noun_follows(said: str, left: str) -> None:
+    situation, made = round_of(said, over=0)
+    assert ", ".join(text for call in pending(situation.queue, made) for text in texts_of(call)) == left
+
+
+def test_of_what_is_over_it_is_said_so_and_the_rest_is_left_out() -> None:
+    situation, made = round_of("leave out area A", over=1)
+    assert not (made.queue or made.system_cmd)
+    told = "I am done with Area A already. Left to do: go to Area B; go to Area C."
+    assert made.message_response == told
+    situation, made = round_of("skip A and B", over=1)
+    assert [text for call in pending(situation.queue, made) for text in texts_of(call)] == ["Area C"]
+
+
+@pytest.mark.parametrize(
+    ("over", "answers"), [(1, "Left to do: go to Area B; go to Area C."), (3, "Nothing is left to do.")]
+)
+def test_how_far_a_round_is_can_be_asked_of_its_places(over: int, answers: str) -> None:
+    for said in ("which areas are left?", "have all areas been checked?", "have you checked every area?"):
+        _, made = round_of(said, over=over)
+        assert answers in made.message_response
+        assert not (made.queue or made.system_cmd)

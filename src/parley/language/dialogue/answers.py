@@ -134,8 +134,10 @@ def _left(situation: Situation, about: str) -> str:
         return (
             f"Nothing is begun. This waits for your yes: {listed([step_words(x) for x in proposal.lines])}."
         )
+    if not left:
+        return _failed(situation) or f"Nothing is left to do. {_did(situation, '') if about else ''}".strip()
     told = f"Left to do: {'; '.join(step_words(step.label) for step in left)}."
-    return told if left else _failed(situation) or "Nothing is left to do."
+    return f"Not yet. {told}" if about else told
 
 
 def _beside(situation: Situation, about: str) -> str:
@@ -420,8 +422,8 @@ def _how_far(situation: Situation, about: str) -> str:
         gap_m = both[0].gap_m(both[1].x_m, both[1].y_m)
         return f"By my map they are about {round(max(gap_m, 2.0))} metres apart."
     things = _things(situation, about)
-    if len(things) != 1:
-        return _how_long(situation, about) if situation.dialogue.steps else ""
+    if len(things) != 1 or " from " in about:
+        return _how_long(situation, about) if situation.dialogue.steps and not things else ""
     name = called(things[0].description)
     return f"{name[:1].upper()}{name[1:]} is {lies(things[0], situation.objects, situation.robot_pose)}."
 

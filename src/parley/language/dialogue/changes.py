@@ -16,8 +16,9 @@ from parley.language.base import Situation
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.saying import which_one
 from parley.language.builtin.tokens import Token
-from parley.language.dialogue.answers import step_words
+from parley.language.dialogue.answers import answer, listed, step_words
 from parley.language.dialogue.mentions import Named, named
+from parley.language.dialogue.questions import Question
 from parley.messages.chat import ActionCall
 from parley.messages.status import PlanStep
 from parley.world.object_map import MapObject
@@ -200,10 +201,7 @@ def change_of(
         orders: Whether an order was read in it that can be carried out as it stands: its steps are put into
             the change by whoever read it.
     """
-    plan = visits(situation)
-    if not plan:
-        return None
-    names = named(tokens, situation.objects, lexicon)
+    plan, names = visits(situation), named(tokens, situation.objects, lexicon)
     low = [token.low for token in tokens]
     text = " ".join(low)
     against: list[Named] = []
@@ -218,12 +216,12 @@ def change_of(
     if not against and _ALSO.search(text) is not None and _FOR_GOOD.search(text) is None:
         takes_back = False
     if orders:
-        return _with_order(situation, plan, against, text, takes_back=takes_back)
+        return _with_order(situation, plan, against, text, takes_back=takes_back) if plan else None
     if not _is_bare(tokens, names, lexicon):
         return None
     if against and not for_:
-        return _left_out(plan, against)
-    if not names:
+        return _left_out(situation, plan, against)
+    if not names or not plan:
         return None
     if takes_back or against:
         return _replaced(plan, against, for_[0], text) if len(for_) == 1 else None
@@ -334,17 +332,19 @@ def _meant(plan: Sequence[Visit], name: Named) -> list[Visit]:
         there = not visit.things and before is not None and before in found  # what is done where it goes
         if there or ids & {item.id for item in visit.things}:
             found.append(visit)
-    return found or [visit for visit in plan if all(word in visit.words for word in name.words)]
+    return found or [visit for visit in plan if {*name.words} <= {*re.findall(r"\w+", visit.words)}]
 
 
-def _left_out(plan: Sequence[Visit], against: Sequence[Named]) -> Change | None:
-    out: list[Visit] = []
-    for name in against:
-        meant = _meant(plan, name)
-        if not meant:
-            return None
-        out += [visit for visit in meant if visit not in out]
-    return _dropping(out)
+def _left_out(situation: Situation, plan: Sequence[Visit], against: Sequence[Named]) -> Change | None:
+    out = [visit for visit in plan if any(visit in _meant(plan, name) for name in against)]
+    over = [item.description for name in against if not _meant(plan, name) for item in name.things]
+    ended = [deed.label for deed in situation.dialogue.deeds if deed.ending in ("done", "no", "left out")]
+    if any(not any(name in label for label in ended) for name in over):
+        return None
+    told = f"I am done with {listed([*map(called, over)])} already." if over else ""
+    if not out:
+        return Change(question=f"{told} {answer(Question('what_left'), situation)}") if over else None
+    return replace(_dropping(out), said=f"{told} {_dropping(out).said}".strip())
 
 
 def _deed_of(plan: Sequence[Visit], first: Visit) -> list[Visit]:

@@ -17,6 +17,10 @@ __all__ = ["Named", "named", "named_alone", "same_kind", "same_word"]
 _LONGEST = 8
 _IN_TIME = {"before", "after"}
 """They part two names: "the yard before the gate" is no thing."""
+_LETTER = "A"
+"""Stands for "a" that is the last word of a name, and no article."""
+_BEHIND = " . , ; : ! ? - and or first last please too out now then again is off instead "
+"""Before these no article stands."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +61,12 @@ def named(tokens: Sequence[Token], objects: Sequence[MapObject], lexicon: Lexico
         for name in (item.description, item.class_name, *item.aliases)
     }
     names |= {other for name in names for other in lexicon.synonyms.get(name, ())}
-    words = {word for name in names for word in name}
+    words = {_LETTER, *(word for name in names for word in name)}
+    before = {name[0] for name in names if name[1:] and name[-1] == "a"}
+    for at, token in enumerate(tokens if before else ()):  # "skip A", "leave out area a", "A first"
+        alone = f" {[*low, '.'][at + 1]} " in _BEHIND
+        if token.low == "a" and (alone or (at and (token.text == "A" or low[at - 1] in before))):
+            low[at] = _LETTER
     found: list[Named] = []
     start = 0
     while start < len(low):
@@ -90,6 +99,10 @@ def _longest(
             word in small or any(same_word(word, known) for known in words) for word in window
         ):
             continue
+        if window == [_LETTER]:
+            called = tuple(item for item in objects if item.description.lower().endswith(" a"))
+            return Named(start, end, called, ("a",))
+        window = [word.lower() for word in window]
         mention = link(window, head_of(window, lexicon), objects, lexicon)
         if mention.kind in ("one", "several"):
             return Named(start, end, mention.things, tuple(window))

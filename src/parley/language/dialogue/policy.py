@@ -176,7 +176,8 @@ def _about_what_was_said(heard: Heard) -> Decision | None:
         made = _ordered(asked)
         if made is not None:
             return afterwards(made, heard)
-        if isinstance(asked, Ask) and asked.choices and "told" not in reading.acts:
+        unclear = isinstance(asked, Ask) and asked.choices and "told" not in reading.acts
+        if unclear or (isinstance(asked, Edit) and asked.change.drop):  # "no, hang on, only the gate"
             return asked
     change = rearranged(situation, tokens, lexicon) or change_of(situation, tokens, lexicon, orders=False)
     if change is None and situation.dialogue.orders:

@@ -83,7 +83,7 @@ _OPENERS: Final = re.compile(
     r"let's|i would like(?: you to)?|i (?:'d|want you to|want|'d like(?: you to)?)|i'd like(?: you to)?) )+"
 )
 _CLOSERS: Final = re.compile(
-    r"(?: (?:please|instead|though|now|then|today|for now|thanks|thank you|okay|ok|this time))+$"
+    r"(?: (?:please|instead|though|now|then|today|for now|thanks|thank you|okay|ok|this time|too|as well))+$"
 )
 
 
