@@ -140,6 +140,24 @@ async def test_an_elevator_holds_one_and_who_waits_for_it_says_so_when_asked() -
         assert _in_passage(home, "Kim")
 
 
+async def test_who_waited_in_vain_is_told_when_the_place_is_free() -> None:
+    world = WORLD.replace("name: passage, corners: [[5.5, 2.4], [6.5, 2.4], [6.5, 3.6], [5.5, 3.6]]", LIFT)
+    async with halls(None, world) as (home, _):
+        await home.say("go to the elevator", "Lee")
+        assert set(await home.done("Lee")) == {"finished"}
+        await home.say("go to the elevator", "Kim")
+        assert "Lee is still in it" in (await home.question("Kim")).message
+        await home.say("go to the desk", "Lee")
+        told = "“elevator” is free now. Say “try again” and I go on."
+        await home.observer.until(
+            lambda: [said.message for said in home.observer.said if "Kim" in said.targets].count(told) == 1,
+            timeout_s=PATIENCE_S,
+        )
+        await home.say("try again", "Kim")
+        assert set(await home.done("Kim")) == {"finished"}
+        assert _in_passage(home, "Kim")
+
+
 def _in_passage(home: House, robot: str) -> bool:
     (passage,) = home.system.objects.areas
     pose = home.system.robots[robot].pose()

@@ -49,9 +49,9 @@ class Walker(DummyRobot):
 
 
 class Person:
-    """Hears, and answers what the test says."""
+    """Hears, and answers what the test says; None: never."""
 
-    def __init__(self, answer: str = "") -> None:
+    def __init__(self, answer: str | None = "") -> None:
         self.answer, self.heard = answer, list[str]()
 
     def tell(self, text: str) -> None:
@@ -59,7 +59,9 @@ class Person:
 
     async def ask(self, question: str, choices: Sequence[str] = ()) -> str:
         self.heard.append(question)
-        return self.answer
+        if self.answer is None:
+            await asyncio.Event().wait()
+        return self.answer or ""
 
 
 class Door:
@@ -148,6 +150,21 @@ async def test_whether_one_that_does_not_answer_is_out_of_the_way_a_person_says(
             with pytest.raises(ActionFailure, match="Kim stands in “door” and does not answer"):
                 await attending
     assert "Kim does not answer any more" in person.heard[-1]
+
+
+async def test_who_answers_again_and_comes_out_is_asked_about_no_longer() -> None:
+    door, person = Door(), Person(None)
+    door.book.lose("Kim")
+    async with waiting(door, person) as attending:
+        for _ in range(20):
+            await asyncio.sleep(0)
+        assert "Is it out of the way?" in person.heard[-1]
+        door.book.take("Kim", None)
+        door.tell()
+        tries = [await door.at(3.2) for _ in range(20)]
+        assert tries[-1]
+        assert not attending.done()
+    assert person.heard[-1] == "“door” is free now, so I go on."
 
 
 async def test_where_nobody_says_whose_turn_it_is_it_does_not_go_in() -> None:

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 from pydantic import Field
 
 from parley.messages.base import Payload
 
-__all__ = ["PassageClaim", "PassageList", "PassageState"]
+__all__ = ["TAKEN", "PassageClaim", "PassageList", "PassageState"]
+
+TAKEN: Final = "taken"
+"""Among the details of a failure: the place for which a robot has waited in vain."""
 
 
 class PassageClaim(Payload):

@@ -17,7 +17,7 @@ from typing import Final, Protocol
 from parley.clock import Clock
 from parley.errors import ActionFailure, FailureCode
 from parley.gate.assent import assent_of
-from parley.messages.passages import PassageClaim, PassageList, PassageState
+from parley.messages.passages import TAKEN, PassageClaim, PassageList, PassageState
 from parley.robots.base import Robot
 from parley.sentences import Sentence, sentence
 from parley.world.object_map import MapArea
@@ -213,7 +213,7 @@ class Turn:
                 if not wait.known and self._clock.wall_s() - since_s > UNHEARD_S:
                     raise ActionFailure(FailureCode.UNAVAILABLE, _in_vain(wait))
                 if wait.stuck or self._clock.now_s() - began_s > PATIENCE_S:
-                    raise ActionFailure(FailureCode.BLOCKED, _in_vain(wait))
+                    raise ActionFailure(FailureCode.BLOCKED, _in_vain(wait), {TAKEN: wait.place})
                 if wait.lost:
                     await self._ask_about(wait, person)
                 await self._some_time()
@@ -225,14 +225,28 @@ class Turn:
             "{robot} does not answer any more, and may still stand in “{place}”. Is it out of the way?",
             robot=who, place=wait.place,
         )  # fmt: skip
-        reply = await person.ask(question, ("Yes", "No"))
+        asking = asyncio.ensure_future(person.ask(question, ("Yes", "No")))
+        free = asyncio.ensure_future(self._until(lambda: not self._is_kept_by(wait)))
+        try:
+            await asyncio.wait((asking, free), return_when=asyncio.FIRST_COMPLETED)
+            if not asking.done():
+                person.tell(sentence("“{place}” is free now, so I go on.", place=wait.place))
+                return
+            reply = await asking
+        finally:
+            for one in (asking, free):
+                one.cancel()
         if assent_of(reply, (self._robot.name,)) is not True:
             text = sentence("{robot} stands in “{place}” and does not answer, so I do not go in.",
                             robot=who, place=wait.place)  # fmt: skip
-            raise ActionFailure(FailureCode.BLOCKED, text)
+            raise ActionFailure(FailureCode.BLOCKED, text, {TAKEN: wait.place})
         self._claim = self._claim.model_copy(update={"without": tuple({*self._claim.without, *wait.lost})})
         self._change()
-        await self._until(lambda: self._wait is None or not {*self._wait.lost} & {*wait.lost})
+        await self._until(lambda: not self._is_kept_by(wait))
+
+    def _is_kept_by(self, wait: _Wait) -> bool:
+        """Whether it still waits for those that do not answer."""
+        return self._wait is not None and bool({*self._wait.lost} & {*wait.lost})
 
     # -- what it claims -------------------------------------------------------------------------------------
 

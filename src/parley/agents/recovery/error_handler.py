@@ -12,6 +12,7 @@ from parley.agents.presence import Presence
 from parley.agents.questions import OpenQuestions, SeenIds
 from parley.agents.recovery.advice import Advice, plain_question
 from parley.agents.recovery.asides import Asides
+from parley.agents.recovery.freed import Freed
 from parley.agents.recovery.incident_log import IncidentLog
 from parley.agents.recovery.repair import (
     MAX_ALONE,
@@ -41,6 +42,7 @@ from parley.messages.chat import (
 )
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.incident import GetIncidents, Incident
+from parley.messages.passages import PassageList
 from parley.messages.ros import ChatRequest, ChatResponse
 from parley.messages.status import ActorStatus, PlanProposal, PlanUpdate, StopCommand, StopReport
 from parley.messages.wire import decode, encode
@@ -115,6 +117,7 @@ class ErrorHandler(Node):
         self._latched: set[str] = set()
         """Robots that were stopped for safety and may not move before a person releases that."""
         self._asides = Asides()
+        self._freed = Freed(lambda robot, text: self._say(robot, text, "info", choices=("try again",)))
         self._advice = Advice(transport, language, self._thinking, self._presence, objects)
 
     async def open(self) -> None:
@@ -127,7 +130,8 @@ class ErrorHandler(Node):
         self.left_over = await self._log.settle_left_over()
         self.opened.push_async_callback(self._log.flush)
         await self.opened.enter_async_context(self._mailboxes)
-        await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._presence.on_status)
+        await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._on_status)
+        await self.subscribe(topics.PASSAGES, PassageList, self._freed.on_passages)
         await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._on_said)
         await self.subscribe(topics.ERROR_HANDLING, ErrorHandlingMessage, self._on_failure)
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
@@ -143,11 +147,16 @@ class ErrorHandler(Node):
 
     # -- from the wire ---------------------------------------------------------------------------------
 
+    def _on_status(self, status: ActorStatus) -> None:
+        self._presence.on_status(status)
+        self._freed.on_status(status)
+
     def _on_failure(self, failure: ErrorHandlingMessage) -> None:
         target, earlier = failure.target, self._trying.get(failure.target)
         known = [repair for repair in (self._repairs.get(target), earlier) if repair is not None]
         if failure.failure_id and any(repair.failure.failure_id == failure.failure_id for repair in known):
             return  # the same failure, reported twice
+        self._freed.on_failure(failure)
         if target in self._repairs:
             self._end(self._repairs.pop(target), "replaced", "Another step failed in the meantime.")
         self._trying.pop(target, None)
@@ -255,6 +264,8 @@ class ErrorHandler(Node):
         """A repair ends when the robot is no longer held, whoever brought that about."""
         if isinstance(update, PlanProposal):
             return
+        if update.state != "held" and update.target not in self._repairs:
+            self._freed.forget(update.target)
         trying = self._trying.get(update.target)
         if trying is not None and (outcome := trying.outcome(update)) != "open":
             del self._trying[update.target]
@@ -419,6 +430,7 @@ class ErrorHandler(Node):
             question_id=repair.question_id,
             closes=instead_of,
         )
+        self._freed.on_asked(repair.failure.target)
 
     def _give_up(self, repair: Repair) -> None:
         """Hold the robot and say what remains (design section 2, last row of the table)."""
