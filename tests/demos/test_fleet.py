@@ -247,6 +247,82 @@ async def test_one_part_is_dropped_the_rest_goes_on_and_how_far_it_is_is_told_of
         assert "emergency stop" in (await home.say("what happened to Leo?", "Spot")).message
 
 
+async def said_by(home: House, who: str, text: str, robot: str) -> None:
+    """Somebody says something, and it is answered."""
+    heard = len(home.observer.said)
+    said = ChatInput(message=text, targets=(robot,), id=f"{who} {heard}", by=person(who))
+    home.observer.publish(topics.CHAT_INPUT, said)
+    await home.observer.until(
+        lambda: any(one.type == "response" for one in home.observer.said[heard:]), timeout_s=PATIENCE_S
+    )
+
+
+@pytest.mark.parametrize("words", ["emergency stop all", "Emergency stop for all robots!"])
+async def test_an_emergency_stop_of_all_holds_all_until_it_is_released(words: str) -> None:
+    async with hall() as home:
+        home.observer.say(words, "Spot")
+        await home.observer.until(
+            lambda: {one.actor for one in home.observer.stop_reports if one.state == "at_rest"} == {*ROBOTS},
+            timeout_s=PATIENCE_S,
+        )
+
+
+@pytest.mark.parametrize(
+    ("order", "words"),
+    [("go to the pump", "Cancel everything, everybody"), ("go to the pump", "cancel everything"),
+     ("Spot goes to the pump, Leo goes to the loading gate", "cancel the mission"),
+     ("Spot goes to the pump, Leo goes to the loading gate", "cancel Spot's part")],
+)  # fmt: skip
+async def test_what_somebody_else_ordered_is_given_up_only_after_a_yes_and_stands_at_once(
+    order: str, words: str
+) -> None:
+    async with hall(speed=4.0) as home:
+        await said_by(home, "Ruth", order, "Spot")
+        await said_by(home, "Kim", "go to Area C" if "Leo" not in order else "go to Area A", "TIAGo")
+        await said_by(home, "Kim", words, "TIAGo" if "everybody" in words else "Spot")
+        await home.state("paused", "Spot")
+        asked = "I ask first: Ruth told me to do this. This is what I would do: Give up the plan as it is."
+        await home.observer.until(
+            lambda: any(asked in one.message and "Spot" in one.targets for one in home.observer.said),
+            timeout_s=PATIENCE_S,
+        )
+        assert home.observer.state("TIAGo") == ("idle" if "everybody" in words else "running")
+        assert goals(home)["Spot"] == ["pump"]
+        assert home.observer.state("Leo") == (
+            "paused" if "mission" in words else "running" if "Leo" in order else "idle"
+        )
+        await said_by(home, "Kim", "yes", "Spot")
+        await home.state("idle", "Spot")
+        await said_by(home, "Ruth", "go to the pump", "Spot")
+        await said_by(home, "Ruth", "cancel everything", "Spot")
+        assert home.observer.said[-1].message == "I have dropped everything."
+
+
+async def test_words_that_say_too_little_of_a_team_are_asked_back_and_its_questions_are_of_all() -> None:
+    async with hall(speed=4.0) as home:
+        own = await home.say("go to Area A, then to Area B and then to the pump", "Spot")
+        assert own.type == "response"
+        left = await home.say("what is left to do?", "Spot")  # nobody else is at anything
+        assert left.message.startswith("Left to do: go to Area A; go to Area B; go to the pump.")
+        await home.say("go to the charging dock", "TIAGo")
+        left = await home.say("what is left to do?", "Spot")
+        assert "TIAGo says: “Left to do: go to the charging dock.”" in left.message
+        assert "go to Area B; go to the pump" in left.message
+        for question in ("Who's still on the way?", "which of you still has something to do?"):
+            assert (
+                "Spot says: “This is what I am doing: go to Area A."
+                in (await home.say(question, "Leo")).message
+            )
+        only = await home.say("only Spot", "Spot")
+        assert only.choices == ("Only Spot goes on", "Let Spot take over from TIAGo")
+        judged = await home.say("If area C is clean, all of you come to the dock", "Spot")
+        assert judged.choices == ("All of you come to the dock",)
+        assert goals(home)["Leo"] == []
+        await home.say("Leo takes over your job", "Spot")
+        assert goals(home)["Leo"] == ["Area A", "Area B", "pump"]
+        await home.observer.until(lambda: goals(home)["Spot"] == [], timeout_s=PATIENCE_S)
+
+
 async def test_some_stay_whoever_they_are_and_only_the_others_go() -> None:
     async with hall() as home:
         await home.say("One of you stay here, the others go to the dock", "Spot")

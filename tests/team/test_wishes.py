@@ -131,7 +131,7 @@ def test_what_is_asked_about_robots_each_of_them_is_asked(say: str, robot: str, 
     [
         ("have all three boxes been checked by now?", "all three boxes", ""),
         ("did any of you check the gate?", "the gate", "did you check the gate?"),
-        ("which boxes are left?", "", "what are you doing?"),
+        ("which boxes are left?", "", "what is left to do?"),
     ],
 )
 def test_whether_something_is_done_is_asked_of_the_work_and_else_of_the_robots(

@@ -67,7 +67,18 @@ class TeamWish:
     """How a message spreads work over robots, or what it asks about them."""
 
     kind: Literal[
-        "share", "parts", "nearest", "about", "why", "swap", "progress", "drop", "bar", "judged", "help"
+        "share",
+        "parts",
+        "nearest",
+        "about",
+        "why",
+        "swap",
+        "progress",
+        "drop",
+        "bar",
+        "judged",
+        "help",
+        "alone",
     ]
     parts: tuple[Part, ...] = ()
     """For `share` one, of all; for `swap` those that are named; for `bar` where each of them shall not go."""
@@ -190,7 +201,8 @@ class _Words:
             two = len(named) in (0, 2)
             return TeamWish("swap", tuple(Part("named", "", name) for name in named)) if two else None
         return (
-            self._helping(text)
+            self._alone(text)
+            or self._helping(text)
             or self._judged(text)
             or self._other(text)
             or self._taken_over(text)
@@ -202,7 +214,7 @@ class _Words:
     def _progress(self, text: str, *, asks: bool) -> TeamWish | None:
         """How far the work is, or whether something of it is done."""
         if self._match(self.of("progress"), text):
-            return TeamWish("progress", otherwise=TeamWish("about", about="what are you doing?"))
+            return TeamWish("progress", otherwise=TeamWish("about", about="what is left to do?"))
         found = self._match(self.of("checked"), text) if asks else None
         what = next(filter(None, found.groups()), "") if found else ""
         if not what or self._called(what):
@@ -222,6 +234,11 @@ class _Words:
         parts = (Part("named", f"you must not {how} {named['place']}", name) for name in robots)
         return TeamWish("bar", tuple(parts))
 
+    def _alone(self, text: str) -> TeamWish | None:
+        """One of the team and nobody else, where nothing is said of what it is to do."""
+        found = self._match(self.of("alone"), text)
+        return TeamWish("alone", robot=next(iter(self._called(text)))) if found else None
+
     def _helping(self, text: str) -> TeamWish | None:
         """One that is to help another one."""
         if (found := self._match(self.of("helping"), text)) is None:
@@ -233,7 +250,11 @@ class _Words:
     def _judged(self, text: str) -> TeamWish | None:
         """A part that depends on what another one finds, which nobody waits for."""
         who = rf"(?:{self._names}|{self.of('rest')}|{self.of('all')})"
-        found = re.search(rf"(?<=[,;. ]){self.of('judging')},?(?: then)? (?={who}\b)", text, re.IGNORECASE)
+        judging = rf"{self.of('judging')},?(?: then)? (?={who}\b)"
+        first = re.match(judging, text, re.IGNORECASE)
+        if first is not None and self._pieces(told := text[first.end() :]):
+            return TeamWish("judged", about=told, bare=True)
+        found = re.search(rf"(?<=[,;. ]){judging}", text, re.IGNORECASE)
         if found is None or not self._pieces(told := f"{text[: found.start()]}then {text[found.end() :]}"):
             return None
         return TeamWish("judged", about=told)
@@ -242,6 +263,9 @@ class _Words:
         """What somebody does after waiting for another one, or as it is through, as it is said of a part."""
         if (found := self._match(self.of("free"), text)) is not None:
             return f"let {found['robot']} {found['order']}"
+        itself = rf"(?P<when>{self.of('when')}),? (?:it|he|she) (?P<order>.+)"
+        if (found := self._match(itself, text)) and len(named := self._called(found["when"])) == 1:
+            return f"let {named[0]} {found['order']}"
         who = self._names + ("|you" if self._hearer else "")
         waits = rf"(?:(?P<who>{who}),? )?{self.of('awaiting')}"
         found = self._match(waits, text)
@@ -361,6 +385,8 @@ class _Words:
         for name, asked in _OF_ONE.items():
             if found := self._match(self.of(name), bare):
                 return TeamWish("about", about=asked, robot=self._called(bare)[0])
+        if self._match(self.of("full"), bare):
+            return TeamWish("about", about="how much battery is left?")
         if self._match(self.of("doing"), bare):
             return TeamWish("about", about="what are you doing?")
         named = re.findall(rf"\b{self._names}\b", bare, re.IGNORECASE)
@@ -401,7 +427,8 @@ class _Words:
         if found := self._match(rf"{split} (?P<what>(?:the|these|those|all) \w+(?: \w+)?)", text):
             return TeamWish("share", (Part("all", found["what"]),), bare=True)
         if found := self._match(rf"(?P<order>.+?),? {self.of('anybody')}", text):
-            return _shared(found["order"])
+            one = re.match(rf"{self.of('one')}\b", found["order"], re.IGNORECASE)
+            return self.parts(found["order"], asks=False, alone=False) if one else _shared(found["order"])
         some = rf"(?P<some>{self._names}(?:(?:,? and|,) {self._names})+),?(?: {self.of('modal')})?"
         if found := self._match(rf"{some} (?P<order>.+?),? (?:between|among) (?:them|themselves)", text):
             return _shared(found["order"], tuple({*self._robots.values()} - {*self._called(found["some"])}))
@@ -606,6 +633,10 @@ class _Words:
         anyone = rf"(?:(?P<robot>{self._names})|{self.of('one')})"
         who = rf"(?:{self.of('handing')} )?{anyone},?(?: {self.of('modal')})?"
         small = r"(?:(?:so|and|then|please|can|could),? )*"
+        if self._hearer and re.search(r"\w+s over\b|\btake over\b|\w+s (?:in )?for\b|^(?:let|have) ", text):
+            text = re.sub(r"\b(from|for) you\b", rf"\1 {self._hearer}", text, flags=re.IGNORECASE)
+            own = r"\byour (?=(?:part|work|job|rest|round|plan|tasks?|place)\b)"
+            text = re.sub(own, f"{self._hearer}'s ", text, flags=re.IGNORECASE)
         ails = rf"(?P<of>{self._names}) ?{self.of('trouble')} ?[,.;:–-]+ ?{small}"
         found = (
             self._match(rf"{who} {self.of('takeover')}", text)
@@ -722,7 +753,8 @@ class _Words:
 
 
 _OF_ONE: Final = {
-    "owned": "what are you doing?", "through": "are you done?", "fate": "what is wrong?",
+    "owned": "what are you doing?", "under_way": "what are you doing?", "through": "are you done?",
+    "fate": "what is wrong?",
 }  # fmt: skip
 _Piece = tuple[Who, str, str, bool, str]
 """A part as said: who, in which words, what to do, whether it comes after another one, and after whose."""
@@ -740,7 +772,13 @@ _INSIDE: Final = (
 
 
 def _plain(message: str) -> str:
-    return re.sub(r"\s+", " ", message.replace("’", "'")).strip(" .!?")
+    text = re.sub(r"\s+", " ", message.replace("’", "'")).strip(" .!?")
+    return re.sub(
+        r",? (?:quick|quickly|asap|hurry(?: up)?|at once|right away|will you|then)$",
+        "",
+        text,
+        flags=re.IGNORECASE,
+    )
 
 
 def _as_others(made: Sequence[Part]) -> list[Part]:

@@ -143,7 +143,7 @@ class Answering:
             return
         for other in admitted.others:
             if not self.halted_since(halts, other.targets[0]):
-                self._node.spawn(self._hand_over(other, target, said), name=f"order for {other.targets[0]}")
+                self._node.spawn(self.hand_over(other, target, said), name=f"order for {other.targets[0]}")
         order = self._own_share(order, target, said)
         if not order.targets:
             text = admitted.refused[0] if admitted.refused else texts.that_is_for(understood.targets)
@@ -173,7 +173,7 @@ class Answering:
         """Whether a robot was told to stop since `halts` were counted."""
         return halts.get(target, 0) != self._halts(target)
 
-    async def _hand_over(self, other: ChatAction, target: str, said: ChatInput) -> None:
+    async def hand_over(self, other: ChatAction, target: str, said: ChatInput) -> None:
         """Hand on what another robot is to do, and let it say if it cannot, or asks first."""
         order, name = self.trusted(target, other), other.targets[0]
         if order is None or not self._presence.is_there(name):

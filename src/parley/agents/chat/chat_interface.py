@@ -37,6 +37,7 @@ from parley.clock import Clock
 from parley.errors import FailureCode
 from parley.gate.assent import assent_of, begins_with_no, gives_up
 from parley.gate.control import Control, control_of
+from parley.gate.orders import engine
 from parley.gate.rule_talk import Listener, RuleReply, RuleTalk
 from parley.gate.stop_words import calls_to_stop, is_no, only_takes_back, opens_with_no
 from parley.gate.table import Effect, verdict
@@ -62,7 +63,8 @@ from parley.messages.status import (
     StopCommand,
     StopReport,
 )
-from parley.sentences import sentence, together
+from parley.messages.team import MissionPart
+from parley.sentences import listed, sentence, together
 from parley.team.halting import halting
 from parley.team.outlook import Survey
 from parley.transport.base import Transport
@@ -166,7 +168,7 @@ class ChatInterface(Node):
         self._board = MissionBoard(self, missions)
         self._missions = Missions(
             self, talk, self._answering, self._known, self._presence, self._board, language,
-            lambda robot, said: self._hear(robot, said, None),
+            lambda robot, said: self._hear(robot, said, None), self._drop_part,
         )  # fmt: skip
         self._finds = Finds(self, self._answering, self._known, self._board, language)
 
@@ -276,7 +278,7 @@ class ChatInterface(Node):
                 self._answers(target, question, control, said)
                 or (offered and control == "skip" and self._refuses(target, said))
             ):
-                self._control(target, control, said)
+                self._control_or_ask(target, control, said)
             elif not self._presence.is_there(target):
                 text = texts.not_there(target)
                 self._say((target,), text, "error", said.id)
@@ -409,8 +411,17 @@ class ChatInterface(Node):
 
     def _call_off(self, target: str, control: Control, said: ChatInput) -> None:
         """Drop the others' parts, too, where it is the mission that is to be dropped."""
-        if control == "clear" and _MISSION in said.message.lower():
-            self._board.call_off(target, said)
+        for part in (
+            self._board.beside(target) if control == "clear" and _MISSION in said.message.lower() else ()
+        ):
+            self._drop_part(part, said)
+
+    def _drop_part(self, part: MissionPart, said: ChatInput) -> None:
+        """Drop what a robot still does of a mission, and nothing else of it."""
+        if whose := self._known.of_others(part.robot, said):
+            self._ask_to_drop(part.robot, whose, said, part.order)
+        else:
+            self._board.drop(part, said)
 
     def _own_of_all(self, said: ChatInput) -> list[str]:
         """Those of all that are called who stand because whoever calls them told them to."""
@@ -439,8 +450,9 @@ class ChatInterface(Node):
         for name in drives:
             self._say((name,), texts.CONTROL_REPLIES["start"], "response", said.id)
         if not (told.stops or lets_go or drives):
-            text = sentence(STAND_ON if stands else "{robots} is not under way.",
-                            robots=", ".join(stands or told.goes))  # fmt: skip
+            several = stands or told.goes
+            idle = "{robots} is not under way." if len(several) == 1 else "{robots} are not under way."
+            text = sentence(STAND_ON if stands else idle, robots=", ".join(several))
             self._say(hearers[:1], text, "response", said.id)
         return True
 
@@ -699,6 +711,25 @@ class ChatInterface(Node):
             ),
         )
         self._ask_about_rules_again(target, said)
+
+    def _control_or_ask(self, target: str, control: Control, said: ChatInput) -> None:
+        """Act at once, unless it would drop what somebody else told the robot."""
+        if control == "clear" and (whose := self._known.of_others(target, said)):
+            self._call_off(target, control, said)
+            self._ask_to_drop(target, whose, said)
+        else:
+            self._control(target, control, said)
+
+    def _ask_to_drop(self, target: str, whose: Sequence[str], said: ChatInput, order: str = "") -> None:
+        """Of what somebody else told a robot: it stands at once, and gives it up after a yes."""
+        self._missions.keep_part(target)
+        self._control(target, "stop", said)
+        drop = SystemCommand(command="clear", arguments={"order": order} if order else {})
+        asked = ChatAction(
+            system_cmd=(drop,), targets=(target,), by=engine(self.name), behalf=said.who, words=said.message,
+            needs_yes=sentence("{people} told me to do this", people=listed(whose)),
+        )  # fmt: skip
+        self.spawn(self._answering.hand_over(asked, target, said), name=f"dropping for {target}")
 
     def _undoes(self, target: str, said: ChatInput) -> bool:
         """Whether a message is a tap on what undoes a memory; it is done then."""

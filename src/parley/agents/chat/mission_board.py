@@ -59,23 +59,20 @@ class MissionBoard:
         self._show()
         return found
 
-    def call_off(self, robot: str, said: ChatInput) -> None:
-        """Drop what others still do of the mission that a robot has a part of, and nothing else of theirs."""
-        for part in self._book.beside(robot):
-            self._drop(part, said)
+    def beside(self, robot: str) -> list[MissionPart]:
+        """See `MissionBook.beside`."""
+        return self._book.beside(robot)
 
-    def drop(self, robot: str, said: ChatInput) -> bool:
-        """Drop what a robot still does of a mission, and nothing else; whether it does anything of one."""
-        part = self._book.going(robot)
-        if part is not None:
-            self._drop(part, said)
-        return part is not None
+    def going(self, robot: str) -> MissionPart | None:
+        """See `MissionBook.going`."""
+        return self._book.going(robot)
 
     def progress(self, what: str, *, ended: bool) -> Sentence | None:
         """See `MissionBook.progress`."""
         return self._book.progress(what, ended=ended)
 
-    def _drop(self, part: MissionPart, said: ChatInput) -> None:
+    def drop(self, part: MissionPart, said: ChatInput) -> None:
+        """Drop what a robot still does of a mission, and nothing else of it."""
         drop = SystemCommand(command="clear", arguments={"order": part.order})
         order = ChatAction(
             system_cmd=(drop,), targets=(part.robot,), by=said.who, words=said.message, reply_to=said.id
@@ -102,7 +99,7 @@ class MissionBoard:
 
     def _on_order(self, order: ChatAction) -> None:
         for command in order.system_cmd:
-            for robot in order.targets if command.command == "clear" else ():
+            for robot in order.targets if command.command == "clear" and not order.needs_yes else ():
                 self._book.drop(str(command.arguments.get("order", "")), robot)
         self._show()
 

@@ -61,6 +61,7 @@ class Missions:
         board: Where it is followed what becomes of them.
         language: In whose name it happens.
         hear: Has a robot hear words in its own conversation.
+        drop: Drops a robot's part, after a yes if somebody else gave the order.
     """
 
     def __init__(
@@ -73,8 +74,9 @@ class Missions:
         board: MissionBoard,
         language: Language,
         hear: Callable[[str, ChatInput], None],
+        drop: Callable[[MissionPart, ChatInput], None],
     ) -> None:
-        self._hear = hear
+        self._hear, self._drop = hear, drop
         self._node, self._talk, self._answering, self._board = node, talk, answering, board
         self._known, self._presence, self._language = known, presence, language
         self._mates: Latest[str, frozenset[str]] = Latest()
@@ -101,6 +103,11 @@ class Missions:
         if not joined:
             plan = self._known.plans.get(robot)
             self._offer(robot, f"gone from {plan.graph_name if plan is not None else ''}")
+
+    def keep_part(self, robot: str) -> None:
+        """Offer nobody else for a robot's part: it is asked about whether anybody shall do it."""
+        plan = self._known.plans.get(robot)
+        self._told_of[robot, plan.graph_name if plan is not None else ""] = True
 
     def _offer(self, robot: str, about: str) -> None:
         team = self._teams.get(robot)
@@ -146,11 +153,9 @@ class Missions:
             self._say((target,), reasons, said)
             return True
         if wish is not None and wish.kind == "progress":
-            ended = not any(map(self._talk.is_busy, self._presence.names()))
-            if told := self._board.progress(wish.about, ended=ended):
-                self._say((target,), told, said)
-                return True
-            wish = wish.otherwise
+            told, wish = self._progress(target, wish, said)
+            if told is not None or wish is None:
+                return told is not None and self._say((target,), told, said)
         if wish is not None and wish.kind == "why":
             return False
         if wish is not None and wish.kind in ("drop", "bar"):
@@ -179,10 +184,24 @@ class Missions:
             self._say((target,), mission.text, said, mission.choices)
         return True
 
+    def _progress(
+        self, target: str, wish: TeamWish, said: ChatInput
+    ) -> tuple[Sentence | None, TeamWish | None]:
+        """How far the work is that is asked about; else as what it is read, if not about the hearer's own."""
+        busy = [name for name in self._presence.names() if self._talk.is_busy(name)]
+        told = self._board.progress(wish.about, ended=not busy)
+        own = {*busy} <= {target} and question_of(plain(tokenize(said.message))) is not None
+        return told, None if own else wish.otherwise
+
     def _tell(self, target: str, wish: TeamWish, said: ChatInput) -> None:
         """What a person says of one robot, to that robot: to give up its part, or where not to go."""
         robot = wish.robot
-        if robot and self._board.drop(robot, said):
+        if robot and (part := self._board.going(robot)) is not None:
+            self._drop(part, said)
+            if self._known.of_others(robot, said):  # that one asks about it
+                if target != robot:
+                    self._say((target,), texts.that_is_for((robot,)), said)
+                return
             text = sentence(GIVES_UP, robot=robot)
             self._known.note(target, said.message, text)
             self._say(tuple(dict.fromkeys((target, robot))), text, said)
@@ -377,9 +396,11 @@ class Missions:
             return sentence("{robot}: {steps} ({why}).", robot=share.robot, steps=steps, why=share.why)
         return sentence("{robot}: {steps}.", robot=share.robot, steps=steps)
 
-    def _say(self, robots: Sequence[str], text: str, said: ChatInput, choices: Sequence[str] = ()) -> None:
+    def _say(self, robots: Sequence[str], text: str, said: ChatInput, choices: Sequence[str] = ()) -> bool:
+        """Say something, which answers a message."""
         feedback = ChatFeedback(
             message=self._node.spoken(text), targets=tuple(robots), type="response", choices=tuple(choices),
             reply_to=said.id,
         )  # fmt: skip
         self._node.publish(topics.CHAT_FEEDBACK, feedback)
+        return True

@@ -72,6 +72,8 @@ class Situations:
         self._stopped_by: dict[str, set[Principal]] = {}
         """By robot that stands: who told it to."""
         self._changes: Latest[str, int] = Latest()
+        self._ordered: dict[str, set[str]] = {}
+        """By robot that is at something: who told it to, by name."""
 
     def on_feedback(self, feedback: ChatFeedback) -> None:
         """Something was said to an operator; it may be a question."""
@@ -87,6 +89,8 @@ class Situations:
         status = self._presence.get(update.target)
         if update.state != "paused" and self.state(update.target) == "paused":
             self._stopped_by.pop(update.target, None)
+        if update.state == "idle" and self.state(update.target) != "idle":
+            self._ordered.pop(update.target, None)
         self.plans[update.target] = update
         if status is not None:
             self._catalogues[update.target] = status.catalogue
@@ -106,6 +110,12 @@ class Situations:
             words, now_ms = order.words or said.message, self._clock.unix_ms()
             asked = Order(words, said.who.name, now_ms, tuple(order.queue), pose, why)
             self.log(target).on_order(asked)
+            self._ordered.setdefault(target, set()).update({_name(said)} if said.who.is_person else ())
+
+    def of_others(self, target: str, said: ChatInput) -> list[str]:
+        """Who else, by name, told a robot to do what it is at; nobody of a plan that has not begun."""
+        begun = said.who.is_person and self.state(target) not in ("idle", "awaiting_approval")
+        return sorted(self._ordered.get(target, set()) - {"", _name(said)}) if begun else []
 
     def catalogue(self, target: str) -> Sequence[ActionInfo]:
         """What a robot can do, or could when its plan was heard of last."""
@@ -234,6 +244,11 @@ class Situations:
             return await recall_newest(self._transport, scope=target)
         query = memory_query(message, self.conversation(target).turns, speaker)
         return await recall(self._transport, query, scope=target)
+
+
+def _name(said: ChatInput) -> str:
+    """Who speaks."""
+    return said.who.name or said.author
 
 
 def _pose(status: ActorStatus | None) -> Pose2D | None:

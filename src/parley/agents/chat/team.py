@@ -40,6 +40,8 @@ __all__ = ["Mission", "Share", "TeamTalk"]
 TELL_EACH: Final = sentence("I cannot tell what of that can be done apart. Please tell each of us its part.")
 WHO_DOES: Final = sentence("I cannot tell which of us is to do what. Please tell each of us its part.")
 JUDGED: Final = sentence("We can wait until that is done, but not judge what is found. Shall we do it so?")
+JUDGE_YOURSELF: Final = "We cannot judge that for each other. Say “{words}” once it is so."
+TAKES_OVER: Final = "Let {other} take over from {robot}"
 IN_FULL: Final = sentence("I do not know what you mean by that. Please say it in full.")
 LEFT_OUT: Final = "What {robots} had to do before is left out."
 GIVES_UP: Final = "{robot} gives up what is left of its plan."
@@ -174,10 +176,8 @@ class TeamTalk:
             return self._swapped([part.robot for part in wish.parts], members)
         if wish.count and wish.count != len(team or self._presence.names()):
             return Mission(text=sentence("Which of us do you mean? Please call us by our names."))
-        if wish.kind == "help":
-            return self.offered_instead(wish.parts[0].robot, wish.robot)
-        if wish.kind == "judged":
-            return Mission(text=JUDGED, choices=(wish.about,))
+        if (asked := self._asked_back(wish)) is not None:
+            return asked
         work = _Work(self, said, members, plain=plain)
         if wish.kind == "nearest":
             return await work.nearest(wish.about)
@@ -192,11 +192,30 @@ class TeamTalk:
         out = [name for name in team or self._presence.names() if name not in {*members, *spared}]
         return replace(mission, text=together(mission.text, *filter(None, map(self._why_out, out))))
 
+    def _asked_back(self, wish: TeamWish) -> Mission | None:
+        """A question back about words that say too little, or what we cannot do; None for other words."""
+        if wish.kind == "help":
+            return self.offered_instead(wish.parts[0].robot, wish.robot)
+        if wish.kind == "judged" and wish.bare:
+            words = f"{wish.about[:1].upper()}{wish.about[1:]}"
+            return Mission(text=sentence(JUDGE_YOURSELF, words=words), choices=(words,))
+        if wish.kind == "judged":
+            return Mission(text=JUDGED, choices=(wish.about,))
+        return self._alone(wish.robot) if wish.kind == "alone" else None
+
+    def _alone(self, robot: str) -> Mission:
+        """A question what only one robot is to do: to go on, or what others are at."""
+        others = [name for name in self._presence.names() if name != robot and self.is_busy(name)]
+        goes_on = [sentence("Only {robot} goes on", robot=robot)] if others and self.is_busy(robot) else []
+        over = [sentence(TAKES_OVER, other=robot, robot=name) for name in others if self.left(name)]
+        choices = tuple(map(str, (*goes_on, *over)))
+        return Mission(text=sentence("What shall only {robot} do?", robot=robot), choices=choices)
+
     def offered_instead(self, robot: str, of: str) -> Mission:
         """A question whether a robot shall do what another one is at."""
         if not self.left(of):
             return Mission(text=sentence("{robot} has nothing left to do.", robot=of))
-        words = str(sentence("Let {other} take over from {robot}", other=robot, robot=of))
+        words = str(sentence(TAKES_OVER, other=robot, robot=of))
         text = sentence("Do you mean what {robot} is at? Then say “{words}”.", robot=of, words=words)
         return Mission(text=text, choices=(words,))
 

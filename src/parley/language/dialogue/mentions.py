@@ -70,7 +70,7 @@ def named(tokens: Sequence[Token], objects: Sequence[MapObject], lexicon: Lexico
     found: list[Named] = []
     start = 0
     while start < len(low):
-        best = _longest(low, start, objects, (names, words), lexicon) if tokens[start].is_word else None
+        best = _longest(low, start, objects, words, lexicon) if tokens[start].is_word else None
         if best is not None:
             found.append(best)
         start = best.end if best is not None else start + 1
@@ -83,19 +83,14 @@ def named_alone(tokens: Sequence[Token], objects: Sequence[MapObject], lexicon: 
 
 
 def _longest(
-    low: Sequence[str],
-    start: int,
-    objects: Sequence[MapObject],
-    known_as: tuple[set[tuple[str, ...]], set[str]],
-    lexicon: Lexicon,
+    low: Sequence[str], start: int, objects: Sequence[MapObject], words: set[str], lexicon: Lexicon
 ) -> Named | None:
-    names, words = known_as
     small = (lexicon.classes["prepositions"] | lexicon.classes["determiners"]) - _IN_TIME
     if low[start] in small or not any(same_word(low[start], word) for word in words):
         return None
     for end in range(min(len(low), start + _LONGEST), start, -1):
         window = low[start:end]
-        if (window[-1] in small and tuple(window) not in names) or not all(
+        if window[-1] in small or not all(
             word in small or any(same_word(word, known) for known in words) for word in window
         ):
             continue
