@@ -311,7 +311,7 @@ class Answering:
         """Whether an order is kept until the robot's question about a failed step is answered."""
         held = self._known.state(situation.robot) == "held" and bool(situation.question)
         control = {command.command for command in order.system_cmd} - {"add_memory", "remove_memory"}
-        return held and bool(order.queue) and not control
+        return held and situation.robot in order.targets and bool(order.queue) and not control
 
     def trusted(self, target: str, understood: ChatAction) -> ChatAction | None:
         """The order with its addressees, if each robot named can carry it out; None if not."""

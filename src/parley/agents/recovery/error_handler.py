@@ -117,7 +117,7 @@ class ErrorHandler(Node):
         self._latched: set[str] = set()
         """Robots that were stopped for safety and may not move before a person releases that."""
         self._asides = Asides()
-        self._freed = Freed(lambda robot, text: self._say(robot, text, "info", choices=("try again",)))
+        self._freed = Freed(lambda robot, text: self._say(robot, text, "info"))
         self._advice = Advice(transport, language, self._thinking, self._presence, objects)
 
     async def open(self) -> None:
