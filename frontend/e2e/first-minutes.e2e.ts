@@ -48,8 +48,45 @@ describe.skipIf(!hasBrowser)('somebody new', () => {
     const box = await page.getByRole('textbox', { name: 'Write to David' }).boundingBox();
     expect((box?.y ?? Number.NaN) + (box?.height ?? 0)).toBeLessThanOrEqual(lying.height);
     expect(await barriers(page)).toEqual([]);
+    await page.setViewportSize({ width: 667, height: 375 });
+    await page.getByRole('button', { name: 'Map', exact: true }).tap(); // beside it there is still room to read
+    await page.getByRole('application').waitFor();
+    await expect.poll(height).toBeGreaterThanOrEqual(120);
+    expect(await barriers(page)).toEqual([]);
     await ask.getByRole('button', { name: 'plant in the kitchen' }).tap();
     await page.getByRole('region', { name: 'David asks' }).waitFor({ state: 'detached' });
+    await expect.poll(height).toBeGreaterThanOrEqual(120);
+  });
+
+  it('hears a robot that waits by title, buzzing and sound, and once more after three minutes', async () => {
+    const page = await stage.open(sizes.phone);
+    await page.getByRole('textbox', { name: 'Write to David' }).waitFor();
+    await page.addInitScript(() => {
+      const calls: string[] = [];
+      const { start } = OscillatorNode.prototype;
+      navigator.vibrate = (pattern) => calls.push(`buzz ${pattern.toString()}`) > 0;
+      OscillatorNode.prototype.start = function (when) {
+        calls.push('sound');
+        start.call(this, when);
+      };
+      Object.assign(window, { calls });
+    });
+    await page.clock.install();
+    await page.goto(`${stage.system.address}#/settings`);
+    await page.reload();
+    await page.getByText('Let me hear it').tap();
+    await page.getByRole('link', { name: 'Chat' }).tap();
+    const heard = () => page.evaluate(() => (window as unknown as { calls: string[] }).calls.splice(0));
+    await say(page, 'Go to the sofa.');
+    await page.getByRole('region', { name: 'David asks' }).waitFor();
+    await expect.poll(() => page.title(), { timeout: PATIENCE_MS }).toBe('(1) Parley');
+    expect(await heard()).toEqual(['buzz 200,100,200', 'sound']);
+    await page.clock.fastForward('03:00');
+    await page.getByText('David still waits for you.').waitFor();
+    expect(await heard()).toEqual(['buzz 200,100,200', 'sound']);
+    await page.getByRole('region', { name: 'David asks' }).getByRole('button', { name: 'small sofa' }).tap();
+    await expect.poll(() => page.title(), { timeout: PATIENCE_MS }).toBe('Parley');
+    await page.getByText('David still waits for you.').waitFor({ state: 'detached' });
   });
 
   it('is called on a device whose page is closed, not on one whose page is looked at', async () => {

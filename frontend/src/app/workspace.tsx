@@ -80,7 +80,7 @@ function Narrow({ pages }: { pages: readonly string[] }) {
 function Area({ name, children }: { name: string; children: React.ReactNode }) {
   const { t } = useTranslation('common');
   return (
-    <div className={css[name]}>
+    <div className={css[name]} data-strip={name === 'strip' || undefined}>
       <Boundary message={t('crashed')} again={t('crashedAgain')}>
         <Beside value={name !== 'chat'}>{children}</Beside>
       </Boundary>
