@@ -14,6 +14,10 @@ it('keeps where each robot was, not where it merely trembled', () => {
 
 it('forgets the oldest of a long way', () => {
   let trails: Trails = {};
-  for (let x = 0; x < 500; x += 1) trails = withViews(trails, [at('Ada', x)]);
-  expect(trails['Ada']?.[0]).toEqual([100, 0]);
+  for (let x = 0; x < 500; x += 1) trails = withViews(trails, [at('Ada', x / 2)]);
+  expect(trails['Ada']?.[0]).toEqual([50, 0]);
+});
+
+it('draws no way where a robot was put elsewhere, as after a restart', () => {
+  expect(withViews({ Ada: [[0, 0], [1, 0]] }, [at('Ada', 3)])).toEqual({ Ada: [[3, 0]] });
 });

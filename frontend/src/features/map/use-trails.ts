@@ -10,6 +10,8 @@ export type Trails = Readonly<Record<string, readonly Point[]>>;
 
 const STEP_M = 0.15;
 const KEPT = 400;
+/** Farther than it drives between two views: it was put there, or nobody saw how it came there. */
+const JUMP_M = 1;
 
 /** The trails with what is known now; the same ones if no robot has moved far enough. */
 export function withViews(trails: Trails, views: readonly MapView[]): Trails {
@@ -18,7 +20,12 @@ export function withViews(trails: Trails, views: readonly MapView[]): Trails {
     return !(Math.hypot(pose.x - x, pose.y - y) < STEP_M);
   });
   if (moved.length === 0) return trails;
-  const longer = moved.map(({ actor, pose }) => [actor, [...(trails[actor] ?? []), [pose.x, pose.y] as const].slice(-KEPT)] as const);
+  const longer = moved.map(({ actor, pose }) => {
+    const trail = trails[actor] ?? [];
+    const [x, y] = trail.at(-1) ?? [Infinity, Infinity];
+    const jumped = Math.hypot(pose.x - x, pose.y - y) > JUMP_M;
+    return [actor, [...(jumped ? [] : trail), [pose.x, pose.y] as const].slice(-KEPT)] as const;
+  });
   return { ...trails, ...Object.fromEntries(longer) };
 }
 
