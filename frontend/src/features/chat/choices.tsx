@@ -2,6 +2,7 @@ import { useTranslation } from 'react-i18next';
 
 import type { ChatEntry } from '@/live/types';
 import { Button } from '@/ui/button';
+import { sentence } from '@/ui/words';
 
 import css from './choices.module.css';
 
@@ -20,7 +21,7 @@ export function Choices({ entry, onChoose, isStop = true }: Props) {
       {entry.choices.map((choice, index) => (
         <Button needs="speak" key={choice} excludeFromTabOrder={!isStop} onPress={() => onChoose(entry, choice)}>
           {entry.choices.length > 1 && <span aria-hidden="true" className={css.number}>{index + 1}</span>}
-          {entry.shown_choices?.[index] ?? choice}
+          {sentence(entry.shown_choices?.[index] ?? choice)}
         </Button>
       ))}
     </div>
