@@ -150,6 +150,15 @@ async def test_of_a_robot_that_asks_nobody_is_told_that_it_was_held() -> None:
         assert await waits() == ["Ada asks: Which box?", "Ada was held with steps left: look at <one>"]
 
 
+async def test_what_a_stopped_robot_was_at_is_told_with_that_it_is_stopped() -> None:
+    async with logged() as rig:
+        plan(rig, "one", "paused", "paused")
+        rig.robots.tell(topics.STOP, StopCommand(targets=("Ada",), by=KIM))
+        await rig.heard()
+        (only,) = (await rig.http.get("/api/history/handover?since=1")).json()["waits"]
+        assert only == "Ada is stopped until somebody releases it, with steps left: look at <one>"
+
+
 def test_what_has_no_end_in_the_log_is_not_said_to_have_been_ended() -> None:
     start = AuditEntry(
         number=1, unix_ms=BEGAN_MS, effect="start", robot="Ada", detail={"graph": "one"}, prev="", hash=""

@@ -68,19 +68,32 @@ def waiting(state: WebState, robot: str, language: SpokenLanguage = "en") -> tup
         if not robot or robot in entry.targets
     ]
     asking = {name for entry in asked for name in entry.targets}
-    found += [
-        sentence("{robot} was held with steps left: {what}", robot=plan.robot, what=_steps(left))
-        if plan.state == "paused"
-        else sentence("{robot} cannot go on alone with: {what}", robot=plan.robot, what=_steps(left))
+    stopped = [
+        one.name for one in state.robots.views.values() if one.state == "stopped" or one.stop.state != "none"
+    ]
+    left = {
+        plan.robot: (plan.state, _steps(steps))
         for plan in state.plans.views.values()
-        if plan.state == "paused" or (plan.state == "held" and plan.robot not in asking)
-        if robot in ("", plan.robot)
-        if (left := [step for step in plan.steps if step.state not in ("finished", "skipped", "stopped")])
+        if plan.state in ("paused", "held")
+        if (steps := [step for step in plan.steps if step.state not in ("finished", "skipped", "stopped")])
+    }
+    found += [
+        sentence("{robot} was held with steps left: {what}", robot=name, what=what)
+        if held == "paused"
+        else sentence("{robot} cannot go on alone with: {what}", robot=name, what=what)
+        for name, (held, what) in left.items()
+        if robot in ("", name) and name not in stopped and (held == "paused" or name not in asking)
     ]
     found += [
-        sentence("{robot} is stopped and stays so until somebody releases it.", robot=view.name)
-        for view in state.robots.views.values()
-        if view.stop.state != "none" and robot in ("", view.name)
+        sentence(
+            "{robot} is stopped until somebody releases it, with steps left: {what}",
+            robot=name,
+            what=left[name][1],
+        )
+        if name in left
+        else sentence("{robot} is stopped and stays so until somebody releases it.", robot=name)
+        for name in stopped
+        if robot in ("", name)
     ]
     return tuple(in_language(text, language) for text in found)
 
