@@ -477,7 +477,7 @@ async def test_a_yes_is_no_yes_to_the_same_words_on_a_map_that_has_changed() -> 
         await party.until(lambda: proposals(party))
         objects[0] = replace(box, x_m=4.0)  # somebody carried it away
         decide(party, id=proposals(party)[0]["id"], decision="approve")
-        await party.hears("That is not what waits for your yes by now, so I have not begun.")
+        await party.hears("What waits for your yes has changed since you saw it, so I have not begun.")
         await party.until(lambda: len(proposals(party)) == 2)
         decide(party, id=proposals(party)[1]["id"], decision="approve", digest=proposals(party)[0]["digest"])
         await party.until(lambda: len(proposals(party)) == 3)
@@ -520,7 +520,10 @@ async def test_what_waits_for_a_yes_is_asked_about_as_it_is_after_a_part_of_it_i
         await (party.until(lambda: len(proposals(party)) == 2) if more else party.hears("over by now"))
         await party.state("awaiting_approval" if more else "idle")
         decide(party, id=old["id"], decision="approve")
-        await party.hears("no longer waiting")
+        changed = "What waits for your yes has changed since you saw it, so I have not begun."
+        await party.hears(
+            f"{changed} This is what I would do: Look: what “lid”. Shall I?" if more else "no longer waiting"
+        )
         assert party.body.did == ["look box", "look door"]
         assert [item["lines"] for item in proposals(party)[1:]] == ([["Look: what “lid”"]] if more else [])
 

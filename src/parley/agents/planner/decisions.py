@@ -170,8 +170,15 @@ class Decisions:
             stop = SystemCommand(command="stop")
             self._plans.send(plan, self._commands.effects_of(plan, stop, decision.by))
             self._plans.say(target, orders.BEGUN_ALREADY, "response")
+        elif self._is_past_yes(decision) and (waiting := self._plans.approvals.of(target)):
+            self._proposals.ask_instead(plan, waiting[-1])
+            self._presses.over(decision.press, orders.NOT_AS_SHOWN, past=True)
         else:
             self._undone(decision, orders.WAITS_NO_MORE, past=True)
+
+    def _is_past_yes(self, decision: PlanDecision) -> bool:
+        """Whether it is to what has become something else meanwhile, and was not begun by another yes."""
+        return decision.decision != "reject" and decision.id not in self._begun
 
     def _undone(self, decision: PlanDecision, why: str, *, past: bool = False) -> None:
         """Tell that nothing came of a decision."""

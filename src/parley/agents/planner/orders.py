@@ -33,7 +33,7 @@ _WHY: Final = {
     "missing_input": "something that it needs is not given",
     "unknown_action": "I cannot do such a thing",
 }
-NOT_AS_SHOWN: Final = sentence("That is not what waits for your yes by now, so I have not begun.")
+NOT_AS_SHOWN: Final = sentence("What waits for your yes has changed since you saw it, so I have not begun.")
 BEGUN_ALREADY: Final = sentence(
     "Somebody had said yes already, so I have stopped. Say “carry on” when I should go on."
 )

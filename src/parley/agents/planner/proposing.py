@@ -87,7 +87,12 @@ class Proposals:
 
         `why` it is asked now, though it was not then; may be empty.
         """
-        shown = self._renew(plan, proposal, self._plans.approvals.bound(proposal.id), why)
+        self.ask_instead(
+            plan, self._renew(plan, proposal, self._plans.approvals.bound(proposal.id), why), why
+        )
+
+    def ask_instead(self, plan: TargetPlan, shown: PlanProposal, why: str = "") -> None:
+        """Say what waits by now in the place of what was agreed to."""
         text = together(orders.NOT_AS_SHOWN, wish_of(shown.lines, why), SHALL_I)
         self._plans.say(plan.target, text, "info")
 

@@ -82,6 +82,15 @@ async def post_decision(robot: Robot, post: DecisionPost, web: Web, who: Who) ->
     if proposal is None or proposal.robot != name or post.id in web.state.plans.decided:
         if post.decision == "reject":
             await web.outbox.press(decision)  # somebody's yes was quicker: what it has begun is stopped
+        elif post.id not in web.state.plans.decided and name in {
+            one.robot for one in web.state.plans.proposals.values()
+        }:
+            raise WebProblem(
+                409,
+                "The plan has changed just now.",
+                "Look at what waits for your yes and decide again.",
+                path="id",
+            )
         raise WebProblem(409, "This plan is no longer waiting for an answer.", path="id")
     if post.decision == "approve" and post.digest != proposal.digest:
         raise WebProblem(
