@@ -175,6 +175,8 @@ class CallSettings(BaseModel):
     webhook_file: FilePath | None = None
     """File with the address, where that is a secret."""
     email: EmailSettings | None = None
+    link: str = Field(default="", pattern=r"^(https?://\S+)?$")
+    """Address of the page where it is answered, which is told as well."""
 
     @model_validator(mode="after")
     def _one_way(self) -> Self:

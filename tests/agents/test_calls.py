@@ -121,6 +121,7 @@ async def test_who_waits_long_calls_somebody_and_then_somebody_else_until_it_is_
                 "text": "Ada asks: Which box? Waiting for 1 min.",
                 "robot": "Ada",
                 "waited_s": 60,
+                "link": "",
             }
             answer = ChatInput(message="red", type="response", reply_to="q1", targets=("Ada",))
             here.robots.tell(topics.CHAT_INPUT, answer)
@@ -152,13 +153,15 @@ async def test_a_plan_that_waits_for_a_yes_is_mailed_once() -> None:
         email = EmailSettings(
             to=("kim@example.org",), sender="robots@example.org", host="127.0.0.1", port=port, tls="none"
         )
-        async with ward(CallSettings(after_s=0, email=email)) as here:
+        link = "https://ward.example.org/"
+        async with ward(CallSettings(after_s=0, email=email, link=link)) as here:
             tell = here.robots.tell
             tell(topics.PLAN, PlanProposal(id="p1", target="Ada", lines=("Go to the box", "Look at the box")))
             await here.after(0)
             mail = await come(mails)
             assert "Subject: Ada waits for a yes: Go to the box, Look at the box" in mail
             assert "To: kim@example.org" in mail
+            assert mail.endswith(f"Ada waits for a yes: Go to the box, Look at the box\r\n\r\n{link}\r\n")
             tell(topics.PLAN, PlanProposal(id="p2", target="Ada", lines=("Go to the door",)))
             tell(topics.PLAN, PlanUpdate(target="Ada", state="running", waits=()))
             await here.after(9)

@@ -13,10 +13,11 @@ from pathlib import Path
 from queue import Queue
 from typing import Any
 
-import http_ece
 from cryptography.hazmat.primitives import hashes
 from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.hazmat.primitives.asymmetric.utils import encode_dss_signature
+from cryptography.hazmat.primitives.ciphers.aead import AESGCM
+from cryptography.hazmat.primitives.kdf.hkdf import HKDF
 from cryptography.hazmat.primitives.serialization import Encoding, PublicFormat
 
 from tests.web.rig import Rig, served
@@ -28,6 +29,10 @@ def text_of(data: bytes) -> str:
 
 def bytes_of(text: str) -> bytes:
     return base64.urlsafe_b64decode(text + "=" * (-len(text) % 4))
+
+
+def derived(salt: bytes, key: bytes, info: bytes, length: int) -> bytes:
+    return HKDF(hashes.SHA256(), length, salt, info).derive(key)
 
 
 def vouched(authorization: str, key: str) -> dict[str, Any]:
@@ -61,10 +66,19 @@ class Browser:
         return path, json.loads(self._read(body))
 
     def _read(self, body: bytes) -> bytes:
-        read: bytes = http_ece.decrypt(
-            body, private_key=self._key, auth_secret=self._secret, version="aes128gcm"
-        )
-        return read
+        """As RFC 8291 and RFC 8188 have browsers do it, written from their text."""
+        salt, length = body[:16], body[20]
+        sender, sealed = body[21 : 21 + length], body[21 + length :]
+        assert int.from_bytes(body[16:20]) >= len(sealed), "one record"
+        curve = ec.EllipticCurvePublicKey.from_encoded_point(ec.SECP256R1(), sender)
+        own = self._key.public_key().public_bytes(Encoding.X962, PublicFormat.UncompressedPoint)
+        shared = self._key.exchange(ec.ECDH(), curve)
+        secret = derived(self._secret, shared, b"WebPush: info\0" + own + sender, 32)
+        key = derived(salt, secret, b"Content-Encoding: aes128gcm\0", 16)
+        nonce = derived(salt, secret, b"Content-Encoding: nonce\0", 12)
+        text, _, padding = AESGCM(key).decrypt(nonce, sealed, None).rpartition(b"\2")
+        assert not padding.strip(b"\0")
+        return text
 
 
 @contextmanager

@@ -52,6 +52,7 @@ class Calls(Node):
         super().__init__(transport)
         self._clock, self._tell, self._again_s = clock, tell, again_s
         self._senders: list[Send] = [sender(one) for one in settings]
+        self._links = [one.link for one in settings]
         self._waits = Waits([one.after_s for one in settings])
 
     async def open(self) -> None:
@@ -76,7 +77,8 @@ class Calls(Node):
     async def _call(self, due: Due) -> None:
         minutes = int(due.waited_s // _MINUTE_S)
         since = sentence("Waiting for {minutes} min.", minutes=minutes) if minutes else ""
-        note = Note(self.spoken(together(due.text, since)), due.robot, int(due.waited_s))
+        text = self.spoken(together(due.text, since))
+        note = Note(text, due.robot, int(due.waited_s), self._links[due.stage])
         problem = ""
         for tried in range(_TRIES):
             if tried:

@@ -30,6 +30,8 @@ class Note:
     text: str
     robot: str
     waited_s: int
+    link: str = ""
+    """Where it is answered."""
 
 
 Send = Callable[[Note], None]
@@ -72,7 +74,7 @@ def _mailer(settings: EmailSettings) -> Send:
         mail = EmailMessage()
         mail["From"], mail["To"] = settings.sender, ", ".join(settings.to)
         mail["Subject"] = " ".join(note.text.split())[:_SUBJECT_CHARS]
-        mail.set_content(note.text)
+        mail.set_content("\n\n".join(filter(None, (note.text, note.link))))
         try:
             with _server(settings) as server:
                 if settings.user:
