@@ -84,8 +84,13 @@ describe.skipIf(!hasBrowser)('a page whose server goes away', () => {
     await stage.system.kill();
     await page.getByRole('button', { name: 'Stop', exact: true }).tap();
     await page.getByRole('button', { name: 'Call it off' }).tap();
+    const written = page.locator('li[data-mine="true"]').filter({ hasText: 'stop, please' });
+    await say(page, 'stop, please');
+    await written.getByText(/^Not connected: the stop has not got through!/).waitFor({ timeout: 1500 });
     await stage.system.start();
     await page.getByText(/The connection is lost since/).waitFor({ state: 'detached' });
+    await written.getByText(/^Not connected/).waitFor({ state: 'detached' });
+    expect((await log()).filter((message) => message === 'stop, please')).toHaveLength(1);
     await expect.poll(async () => (await robotNamed(stage))?.state, { timeout: PATIENCE_MS }).toBe('idle');
   });
 

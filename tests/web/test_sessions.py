@@ -149,6 +149,18 @@ async def test_a_message_of_long_ago_that_may_not_have_gone_out_is_told_of_and_n
         assert "go home" in entries[1]["message"]
 
 
+@pytest.mark.parametrize(("fresh", "found"), [(True, "interrupted"), (False, "open")])
+async def test_a_question_whose_robot_starts_anew_is_not_called_needless(
+    tmp_path: Path, fresh: bool, found: str
+) -> None:
+    async with served("Ada", data_dir=tmp_path) as rig:
+        rig.robots.ask("Is it on me?")
+        await rig.until(lambda: rig.server.backend.state.chat.entries)
+    async with served("Ada", data_dir=tmp_path, fresh_robots=fresh) as rig:
+        (entry,) = (await rig.http.get("/api/chat")).json()["entries"]
+        assert entry["question"] == found
+
+
 def test_after_many_wrong_tries_a_code_gives_way_to_another_whoever_tried() -> None:
     told: list[str] = []
     codes = Codes("viewer")

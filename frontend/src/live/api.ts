@@ -48,9 +48,9 @@ interface Problem {
 
 const text = (value: unknown): string => (typeof value === 'string' ? value : '');
 
-async function failure(response: Response): Promise<ApiError> {
-  const problem = (await response.json().catch(() => ({}))) as Problem;
-  return new ApiError(response.status, text(problem.detail) || text(problem.title), text(problem.remedy));
+function failure(status: number, answer: string): ApiError {
+  const { title, detail, remedy } = (answer.startsWith('{') ? JSON.parse(answer) : {}) as Problem;
+  return new ApiError(status, text(detail) || text(title), text(remedy));
 }
 
 /**
@@ -64,6 +64,7 @@ export async function request<T>(
   timeoutMs = TIMEOUT_MS,
 ): Promise<T> {
   let response: Response;
+  let answer: string;
   const sent = body === undefined ? null : JSON.stringify(body);
   try {
     response = await fetch(`/api/${path}`, {
@@ -78,13 +79,12 @@ export async function request<T>(
       keepalive: method !== 'GET' && (sent?.length ?? 0) <= CARRIED_ON_CHARS,
       signal: AbortSignal.timeout(timeoutMs),
     });
+    answer = await response.text(); // it may be cut off in the middle
   } catch {
     throw new ApiError(0, '');
   }
   noteServerDate(response.headers.get('date'), Date.now());
-  if (!response.ok) throw await failure(response);
-  if (response.status === 204) return undefined as T;
-  const answer = await response.text();
+  if (!response.ok) throw failure(response.status, answer);
   return (answer ? JSON.parse(answer) : undefined) as T;
 }
 
@@ -120,7 +120,7 @@ export const openSession = (secret: string, name: string) =>
   request<SessionInfo>('POST', 'session', { secret, name });
 export const closeSession = () => request<unknown>('DELETE', 'session');
 
-export const sendMessage = (message: OutgoingMessage) => request<ChatEntry>('POST', 'chat', message);
+export const sendMessage = (message: OutgoingMessage, withinMs?: number) => request<ChatEntry>('POST', 'chat', message, withinMs);
 
 /** What was wished for, behind the question mark; what is empty is left out. */
 function asked(wish: object): string {
@@ -132,7 +132,7 @@ export const getChat = (wish: { before?: number; limit?: number; q?: string; rob
   request<ChatPage>('GET', `chat?${asked(wish)}`);
 
 /** A stop is tried again soon, so it is not waited for as long as other answers. */
-const STOP_TIMEOUT_MS = 1500;
+export const STOP_TIMEOUT_MS = 1500;
 
 export const sendStop = (targets: readonly string[], id: string) =>
   request<StopAnswer>('POST', 'stop', { command: 'stop', targets, id }, STOP_TIMEOUT_MS);

@@ -9,7 +9,9 @@ export async function fetchPicture(address: string): Promise<string> {
     throw new ApiError(0, '');
   });
   if (!response.ok) throw new ApiError(response.status, '');
-  const bytes = new Uint8Array(await response.arrayBuffer());
+  const bytes = new Uint8Array(await response.arrayBuffer().catch(() => {
+    throw new ApiError(0, '');
+  }));
   let text = '';
   for (const byte of bytes) text += String.fromCharCode(byte);
   return btoa(text);

@@ -137,15 +137,15 @@ const info: ServerInfo = {
   version: '1',
   language: 'built in, works without a model',
   offline_language: true,
-      can_choose_language: false,
-      is_language_chosen: false,
+  can_choose_language: false,
+  is_language_chosen: false,
   modules: {},
   examples: ['Go to the door.', 'What do you see?', 'What can you do?'],
   shown_examples: [],
   tour: [],
   addresses: [],
   unattended: 'go_on',
-  unattended_after_s: 30,
+  unattended_after_s: 30, stop_words: 's+t+o+p+p*|seis|hold\\s+(?:it|on)',
 };
 
 export const snapshot = (part: Partial<Snapshot> = {}): Snapshot => ({

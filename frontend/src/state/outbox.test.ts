@@ -1,4 +1,7 @@
-import { beforeEach, describe, expect, it, vi } from 'vitest';
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+
+import { robot, snapshot } from '@/live/samples';
+import { useLive } from '@/live/store';
 
 import { useOutbox } from './outbox';
 
@@ -50,6 +53,60 @@ describe('a message that did not get through', () => {
     useOutbox.getState().discard(useOutbox.getState().messages[0]?.id ?? '');
     await loadAgain();
     expect(useOutbox.getState().messages).toEqual([]);
+  });
+});
+
+describe('a stop that is written', () => {
+  const write = (text: string) => void useOutbox.getState().send({ text, targets: ['Ada'], reply_to: '', images: [] });
+  const wait = (ms: number) => vi.advanceTimersByTimeAsync(ms);
+
+  beforeEach(() => {
+    vi.useFakeTimers();
+    useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada' })] }));
+  });
+  afterEach(() => vi.useRealTimers());
+
+  it('is sent until it gets through, under one key, also by a page that was loaded again', async () => {
+    for (const text of ['stop!', 'Ada, stop right there', 'Seis!']) {
+      keys.length = 0;
+      reachable = false;
+      useOutbox.setState({ messages: [] });
+      write(text);
+      await wait(1600);
+      if (text === 'stop!') await loadAgain();
+      await wait(600);
+      expect(useOutbox.getState().messages).toMatchObject([{ state: 'failed', insists: true }]);
+      expect(keys.length).toBeGreaterThan(2);
+      reachable = true;
+      await wait(600);
+      expect(useOutbox.getState().messages).toMatchObject([{ state: 'sent' }]);
+      expect(new Set(keys).size).toBe(1);
+      const taken = keys.length;
+      await wait(5000);
+      expect(keys.length).toBe(taken);
+    }
+  });
+
+  it('is called off, and is late at once where nothing answers', async () => {
+    write('stop');
+    await wait(600);
+    useOutbox.getState().discard(useOutbox.getState().messages[0]?.id ?? '');
+    const tried = keys.length;
+    await wait(5000);
+    expect(keys.length).toBe(tried);
+    vi.stubGlobal('fetch', () => new Promise(() => undefined));
+    write('stop, Ada');
+    await wait(800);
+    expect(useOutbox.getState().messages).toMatchObject([{ state: 'failed' }]);
+  });
+
+  it('is nothing that says more, which must not arrive late', async () => {
+    for (const text of ['stop at the large sofa for John', 'go to the kitchen', 'nonstop']) {
+      write(text);
+      await wait(600);
+    }
+    await wait(5000);
+    expect(keys).toHaveLength(3);
   });
 });
 

@@ -2,8 +2,9 @@
 import { create, type StateCreator } from 'zustand';
 import { createJSONStorage, persist } from 'zustand/middleware';
 
-import { ApiError, sendMessage, type OutgoingMessage } from '@/live/api';
+import { ApiError, sendMessage, STOP_TIMEOUT_MS, type OutgoingMessage } from '@/live/api';
 import { useLive } from '@/live/store';
+import { callsToStop, LATE_MS, pause, RETRY_MS, warnOfLeaving } from './calls-to-stop';
 import { explain } from './do';
 import { useToasts } from './toasts';
 
@@ -14,7 +15,12 @@ export interface Outgoing extends OutgoingMessage {
   reason: string;
   /** Whether it would be refused again as it is, e.g. because its question is settled. */
   refused?: boolean;
+  /** Whether it calls to stop: then it is sent until it gets through, as a stop that is pressed. */
+  insists?: boolean;
 }
+
+/** Whether it did not get through and is sent again by itself. */
+export const goesOn = (one: Outgoing | undefined) => one?.state === 'failed' && one.insists === true && !one.refused;
 
 interface Outbox {
   messages: readonly Outgoing[];
@@ -45,21 +51,30 @@ const isSame = (one: Outgoing, other: Omit<OutgoingMessage, 'id'>) =>
   one.targets.join('\n') === other.targets.join('\n') &&
   (Date.now() - one.unixMs < MOMENT_MS || (other.reply_to !== '' && one.state !== 'failed'));
 
-const pause = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
-
 const outbox: StateCreator<Outbox> = (set, get) => {
   const change = (id: string, part: Partial<Outgoing>) =>
     set((now) => ({ messages: now.messages.map((one) => (one.id === id ? { ...one, ...part } : one)) }));
+  const find = (id: string) => get().messages.find((one) => one.id === id);
 
-  const deliver = async ({ id, text, targets, reply_to, images, unattended = null }: OutgoingMessage) => {
-    change(id, { state: 'sending', reason: '' });
+  const attemptOnce = async ({ id, text, targets, reply_to, images, unattended = null }: OutgoingMessage, withinMs?: number) => {
     try {
-      await sendMessage({ id, text, targets, reply_to, images, unattended });
+      await sendMessage({ id, text, targets, reply_to, images, unattended }, withinMs);
       change(id, { state: 'sent' });
     } catch (error) {
       const status = error instanceof ApiError ? error.status : 0;
       change(id, { state: 'failed', reason: explain(error), refused: REFUSALS.has(status) || (status === CONFLICT && reply_to !== '') });
     }
+  };
+
+  const deliver = async (message: OutgoingMessage) => {
+    change(message.id, { state: 'sending', reason: '' });
+    if (!find(message.id)?.insists) return attemptOnce(message);
+    setTimeout(() => find(message.id)?.state === 'sending' && change(message.id, { state: 'failed' }), LATE_MS);
+    do {
+      await attemptOnce(message, STOP_TIMEOUT_MS);
+      if (find(message.id)?.state === 'failed') await pause(RETRY_MS);
+    } while (goesOn(find(message.id)));
+    return undefined;
   };
 
   let last: Outgoing | undefined; // also when it is delivered already
@@ -77,14 +92,14 @@ const outbox: StateCreator<Outbox> = (set, get) => {
     send: async (message) => {
       if (last && isSame(get().messages.find(({ id }) => id === last?.id) ?? last, message)) return;
       const outgoing = { ...message, id: `${OWN}${crypto.randomUUID()}` };
-      const begun: Outgoing = { ...outgoing, unixMs: Date.now(), state: 'sending', reason: '' };
+      const begun: Outgoing = { ...outgoing, unixMs: Date.now(), state: 'sending', reason: '', insists: callsToStop(message.text, useLive.getState().world) };
       last = begun;
       useToasts.getState().anew();
       set((now) => ({ messages: [...now.messages, begun] }));
       await inTurn(outgoing);
     },
     retry: async (id) => {
-      const message = get().messages.find((one) => one.id === id);
+      const message = find(id);
       if (message) await inTurn(message);
     },
     discard: (id) => {
@@ -94,7 +109,7 @@ const outbox: StateCreator<Outbox> = (set, get) => {
   };
 };
 
-/** What was on its way when the page was loaded again may not have arrived: it can be sent again, under the same key. */
+/** What was on its way when the page was loaded again may not have arrived: it can be sent again, under the same key; a stop is. */
 const unsure = (message: Outgoing): Outgoing => ({ ...message, state: 'failed', reason: '' });
 
 export const useOutbox = create<Outbox>()(
@@ -103,9 +118,12 @@ export const useOutbox = create<Outbox>()(
     version: 1,
     storage: createJSONStorage(() => sessionStorage), // it goes with the tab; photos are too large for it
     partialize: ({ messages }) => ({ messages: messages.filter((one) => one.images.length === 0) }),
+    onRehydrateStorage: () => (now) => now?.messages.filter(goesOn).forEach(({ id }) => void now.retry(id)),
     merge: (kept, now) => ({ ...now, messages: ((kept as Partial<Outbox> | undefined)?.messages ?? []).map(unsure) }),
   }),
 );
+
+warnOfLeaving(() => useOutbox.getState().messages.some((one) => one.insists && !one.refused && one.state !== 'sent'));
 
 // What the conversation has held once is delivered, also when that part of it is no longer held here.
 useLive.subscribe((live, before) => {

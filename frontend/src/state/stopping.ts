@@ -11,6 +11,8 @@ import { hearStopLine, stopOnLine } from '@/live/stop-line';
 import { useLive } from '@/live/store';
 import type { RobotView } from '@/live/types';
 
+import { LATE_MS, pause, RETRY_MS, warnOfLeaving } from './calls-to-stop';
+
 /** What is known of one robot after a stop; `stands` and `moves` are measured. */
 export type Fate = StopAnswer['robots'][string];
 
@@ -35,15 +37,10 @@ interface Stopping {
   callOff: () => void;
 }
 
-const RETRY_MS = 500;
-/** A stop that the server did not take for so long is said to be late. */
-const LATE_MS = 700;
 /** Pressed again within this time, it is the same stop. */
 const DOUBLE_MS = 1000;
 /** After this time the live stream alone says how the robots fare. */
 const TOLD_MS = 12_000;
-
-const pause = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
 
 export const useStopping = create<Stopping>()((set, get) => {
   const waits = (id: string) => get().pending?.id === id;
@@ -112,10 +109,7 @@ export const useStopping = create<Stopping>()((set, get) => {
   };
 });
 
-// Only this page goes on sending a stop that was not taken: whoever closes it then is asked.
-window.addEventListener('beforeunload', (event) => {
-  if (useStopping.getState().pending) event.preventDefault();
-});
+warnOfLeaving(() => useStopping.getState().pending !== null);
 
 const isHeld = (robot: RobotView | undefined) => robot !== undefined && (robot.stop.state !== 'none' || robot.state === 'stopped');
 

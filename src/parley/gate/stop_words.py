@@ -14,7 +14,15 @@ from typing import Final
 
 from parley.messages.plain import named_in
 
-__all__ = ["called", "calls_to_stop", "has_stop_word", "is_no", "only_takes_back", "opens_with_no"]
+__all__ = [
+    "STOP_WORDS",
+    "called",
+    "calls_to_stop",
+    "has_stop_word",
+    "is_no",
+    "only_takes_back",
+    "opens_with_no",
+]
 
 _WORDS: Final = (
     r"s+t+o+p+p*|stp+|sto|sotp|stpo|tsop|stpp|stopp?it|h+a+l+t+|w+a+i+t+|f+r+e+e+z+e+|w+h?o+a+h?|brake|"
@@ -30,7 +38,9 @@ _PHRASES: Final = (
     r"(?:dare\s+)?(?:move|drive|go\s+any|come\s+any)|no(?:body|\s?-?one)\s+moves?|no\s+further|not\s+(?:another|one)\s+(?:step|inch|centimet\w+)|"
     r"pea\s+kinni|jää\s+(?:seisma|paigale)|ära\s+(?:liigu|sõida)|paigal|kohe\s+seisma"
 )
-_STOP: Final = re.compile(rf"(?<![\w-])(?:{_WORDS}|{_PHRASES})(?![\w])", re.IGNORECASE)
+STOP_WORDS: Final = f"{_WORDS}|{_PHRASES}"
+"""Words of stopping, as an expression that browsers read too; what stands around them is up to readers."""
+_STOP: Final = re.compile(rf"(?<![\w-])(?:{STOP_WORDS})(?![\w])", re.IGNORECASE)
 
 _EVERYBODY: Final = re.compile(
     r"\b(?:(?:every|any|no)\s?-?(?:body|one)|all\s+of\s+(?:you|them)|both|you\s+(?:all|two|lot)|guys|robots|kõik|kõigil?|"

@@ -16,7 +16,7 @@ from parley import __version__
 from parley.clock import Clock, WallClock
 from parley.errors import StoreError
 from parley.gate.stop_line import StopLine
-from parley.gate.stop_words import has_stop_word
+from parley.gate.stop_words import STOP_WORDS, has_stop_word
 from parley.language.llm.in_use import EngineInUse
 from parley.messages.chat import ChatFeedback, ChatImage
 from parley.messages.map import MapView
@@ -179,7 +179,7 @@ class Backend:
     async def _close_questions(self, entries: list[ChatEntry]) -> list[ChatEntry]:
         """The robots start anew and do not remember what they asked."""
         asked = await self.store.open_questions()
-        closed = {entry.id: entry.model_copy(update={"question": "closed"}) for entry in asked}
+        closed = {entry.id: entry.model_copy(update={"question": "interrupted"}) for entry in asked}
         await self.store.keep(list(closed.values()))
         return [closed.get(entry.id, entry) for entry in entries]
 
@@ -202,6 +202,7 @@ class Backend:
             addresses=self.addresses,
             unattended=config.unattended,
             unattended_after_s=config.unattended_after_s,
+            stop_words=STOP_WORDS,
         )
 
     def snapshot(self) -> Snapshot:

@@ -128,8 +128,8 @@ class ChatEntry(WebModel):
     """Names of the memories it is founded on."""
     engine: str = ""
     """Which language engine worded it, where there are several."""
-    question: Literal["", "open", "answered", "closed"] = ""
-    """For a `request` of a robot: whether it awaits an answer."""
+    question: Literal["", "open", "answered", "closed", "interrupted"] = ""
+    """For a `request` of a robot: whether it awaits an answer; `interrupted`: who asked was ended first."""
     answer_id: str = ""
     """Key of the message that answered it."""
     reply_to: str = ""
@@ -278,6 +278,8 @@ class ServerInfo(WebModel):
     unattended: Unattended = "go_on"
     """What robots do when nobody is connected for `unattended_after_s`, unless an order says otherwise."""
     unattended_after_s: float = 30.0
+    stop_words: str = ""
+    """An expression for the words that stop robots: the page sends them until they get through."""
 
 
 class ModelOffer(WebModel):

@@ -104,7 +104,7 @@ function Head({ entry, asks, isAnew, debug }: { entry: ChatEntry; asks: boolean;
           <strong>{names || t('everyone')}</strong>
           {asks && <span className={css.badge}>{t('asks')}</span>}
           {entry.question === 'answered' && <span>{t(isAnew ? 'askedAnew' : 'answered')}</span>}
-          {entry.question === 'closed' && <span>{t('closed')}</span>}
+          {(entry.question === 'closed' || entry.question === 'interrupted') && <span>{t(entry.question)}</span>}
           {entry.engine && <span data-engine>{entry.engine}</span>}
         </>
       )}

@@ -4,13 +4,15 @@ import { draftKey, useDrafts } from '@/state/drafts';
 import { Button } from '@/ui/button';
 
 import css from './entry.module.css';
-import { useOutbox, type Outgoing } from '@/state/outbox';
+import { goesOn, useOutbox, type Outgoing } from '@/state/outbox';
 
 /** A message that is not yet part of the conversation. */
 export function PendingEntry({ message }: { message: Outgoing }) {
-  const { t } = useTranslation('chat');
+  const { t } = useTranslation(['chat', 'stop']);
   const { retry, discard } = useOutbox();
   const failed = message.state === 'failed';
+  const isRepeated = goesOn(message);
+  const why = isRepeated ? t('stop:late') : `${t('failed')}. ${message.reason}`;
   const change = () => {
     useDrafts.getState().add(draftKey(message.targets), message.text);
     discard(message.id);
@@ -21,12 +23,13 @@ export function PendingEntry({ message }: { message: Outgoing }) {
         <p className={css.text}>{message.text || message.images.map((image) => image.name).join(', ')}</p>
       </div>
       <div className={css.waiting} data-failed={failed} role={failed ? 'alert' : undefined}>
-        <span>{failed ? `${t('failed')}. ${message.reason}` : t('sending')}</span>
+        <span>{failed ? why : t('sending')}</span>
         {failed && (
           <>
-            {message.refused ? <Button onPress={change}>{t('edit')}</Button> : <Button onPress={() => void retry(message.id)}>{t('retry')}</Button>}
+            {message.refused && <Button onPress={change}>{t('edit')}</Button>}
+            {!message.refused && !isRepeated && <Button onPress={() => void retry(message.id)}>{t('retry')}</Button>}
             <Button tone="quiet" onPress={() => discard(message.id)}>
-              {t('discard')}
+              {t(isRepeated ? 'stop:callOff' : 'discard')}
             </Button>
           </>
         )}
