@@ -19,7 +19,7 @@ from parley.messages import topics
 from parley.messages.chat import ActionCall
 from parley.messages.incident import Incident
 from parley.messages.map import MapInfo
-from parley.messages.memory import MemoryEntry
+from parley.messages.memory import AddToMemory, MemoryBody, MemoryEntry
 from parley.messages.principal import person
 from parley.messages.ros import ChatRequest, ChatResponse
 from parley.messages.status import (
@@ -203,6 +203,13 @@ async def test_memories_are_kept_found_shown_and_forgotten() -> None:
         history = (await rig.http.get("/api/memory/history?name=box")).json()
         assert [item["data"] for item in history] == ["The box is by the door."]
         assert (await rig.http.delete("/api/memory?name=box")).status_code == 404
+        noted = "I saw the box at the point (1.1, -2.0), by the door."
+        seen = MemoryBody(data=noted, info="", way="seen")
+        rig.robots.tell(topics.ADD_TO_MEMORY, AddToMemory({"sighting": seen}))
+        await rig.heard()
+        for language, told in (("en", "I saw the box, by the door."), ("et", "Nägin: box, koht: door.")):
+            one = await rig.http.get("/api/memory/one?name=sighting", headers={"accept-language": language})
+            assert (one.json()["data"], one.json()["told"]) == (noted, told)
         assert (await rig.http.get("/api/memory/one?name=box")).status_code == 404
 
 

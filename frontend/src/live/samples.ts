@@ -194,7 +194,7 @@ export const memory = (part: Partial<MemoryItem> & { name: string }): MemoryItem
   scope: '',
   type: 'text',
   data: 'The box is by the door.',
-  info: '',
+  info: '', told: '',
   source: 'operator',
   way: 'told',
   words: '',

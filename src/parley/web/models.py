@@ -242,6 +242,8 @@ class MemoryItem(WebModel):
     data: str
     """The text; for a picture its address below this server."""
     info: str = ""
+    told: str = ""
+    """The text, or what is on the picture, as the reader is told it."""
     source: str = ""
     way: Literal["told", "seen", "concluded", ""] = ""
     """How it is known; `concluded` by a language engine, which nobody said."""

@@ -6,7 +6,7 @@ import { attempt } from '@/state/do';
 import { useToasts } from '@/state/toasts';
 import { Button } from '@/ui/button';
 import { useNow } from '@/ui/use-now';
-import { ago, dayAndTime, inWords, quoted } from '@/ui/words';
+import { ago, dayAndTime, inWords, quoted, sentence } from '@/ui/words';
 
 import { MemoryHistory } from './memory-history';
 import css from './memory.module.css';
@@ -44,7 +44,7 @@ export function MemoryCard({ item, onEdit }: Props) {
           {name}
           {item.scope && <span className={css.scope}>{t('only', { name: item.scope })}</span>}
         </h3>
-        {item.type === 'text' ? <p>{item.data}</p> : <Picture item={item} />}
+        {item.type === 'text' ? <p>{sentence(item.told || item.data)}</p> : <Picture item={item} />}
         <Origin item={item} />
       </div>
       <div className={css.deeds}>
@@ -60,8 +60,8 @@ export function MemoryCard({ item, onEdit }: Props) {
 function Picture({ item }: { item: MemoryItem }) {
   return (
     <>
-      <img src={item.data} alt={item.info || inWords(item.name)} loading="lazy" />
-      {item.info && item.info !== item.name && <p>{item.info}</p>}
+      <img src={item.data} alt={item.told || inWords(item.name)} loading="lazy" />
+      {item.told && item.told !== item.name && <p>{sentence(item.told)}</p>}
     </>
   );
 }

@@ -29,7 +29,7 @@ export function MemoryHistory({ item }: { item: MemoryItem }) {
           <time dateTime={new Date(version.updated_unix_ms).toISOString()}>
             {dayAndTime(version.updated_unix_ms, now, i18n.language)}
           </time>
-          <p>{version.type === 'text' ? version.data : t('pictureThen')}</p>
+          <p>{version.type === 'text' ? version.told || version.data : t('pictureThen')}</p>
           {version.type === 'text' && (
             <Button
               needs="remember"

@@ -15,7 +15,7 @@ const changes = () => asked.filter((one) => one.method !== 'GET');
 
 beforeEach(() => {
   asked.length = 0;
-  const items = [memory({ name: 'box_place' }), memory({ name: 'door', scope: 'Ada', data: 'The door is open.' })];
+  const items = [memory({ name: 'box_place' }), memory({ name: 'door', scope: 'Ada', data: 'The door is open.' }), memory({ name: 'bag_sighting', data: 'I saw the bag at the point (1.1, 2.2), by the desk.', told: 'I saw the bag, by the desk.' })];
   const before = [memory({ name: 'box_place', data: 'The box is in the hall.' })];
   vi.stubGlobal('fetch', network({ memory: { json: items }, 'memory/history?name=box_place&scope=': { json: before } }, asked));
   useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada' })] }));
@@ -24,6 +24,7 @@ beforeEach(() => {
 const show = async () => {
   render(<MemoryPage />);
   await screen.findByText('The box is by the door.');
+  screen.getByText('I saw the bag, by the desk.');
   return userEvent.setup();
 };
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Annotated, Final
 from urllib.parse import urlencode
 
@@ -18,12 +19,14 @@ from parley.messages.memory import (
     MemoryList,
     RemoveMemory,
 )
+from parley.sentences import SpokenLanguage, in_language
 from parley.web.backend import Backend
 from parley.web.bodies import Done, MemoryPut
 from parley.web.models import MemoryItem
 from parley.web.pictures import checked_image, read_image
 from parley.web.problems import WebProblem
 from parley.web.routes.access import Web, Who, may, module
+from parley.web.showing import Reader
 
 __all__ = ["router"]
 
@@ -39,7 +42,7 @@ Scope = Annotated[str, Query(max_length=100)]
 
 @router.get("", dependencies=[may(Effect.SEE)])
 async def get_memories(
-    web: Web, q: Annotated[str, Query(max_length=500)] = "", scope: Scope = ""
+    web: Web, reader: Reader, q: Annotated[str, Query(max_length=500)] = "", scope: Scope = ""
 ) -> list[MemoryItem]:
     """All memories, the newest last, or those that `q` finds, the best first.
 
@@ -51,20 +54,20 @@ async def get_memories(
         )
     else:
         found = await _ask(web, GetMemory(request="", kind="list", scope=scope, pictures=False))
-    return [_item(entry) for entry in found[-MAX_ITEMS:]]
+    return [_item(entry, reader) for entry in found[-MAX_ITEMS:]]
 
 
 @router.get("/one", dependencies=[may(Effect.SEE)])
-async def get_memory(name: Name, web: Web, scope: Scope = "") -> MemoryItem:
+async def get_memory(name: Name, web: Web, reader: Reader, scope: Scope = "") -> MemoryItem:
     """One memory by its name."""
-    return _item(await _get(web, name, scope, pictures=False))
+    return _item(await _get(web, name, scope, pictures=False), reader)
 
 
 @router.get("/history", dependencies=[may(Effect.SEE)])
-async def get_memory_history(name: Name, web: Web, scope: Scope = "") -> list[MemoryItem]:
+async def get_memory_history(name: Name, web: Web, reader: Reader, scope: Scope = "") -> list[MemoryItem]:
     """The versions of a memory that were replaced or forgotten, oldest first; pictures are left out."""
     request = GetMemory(request=name, kind="history", scope=scope, pictures=False)
-    return [_item(entry) for entry in await _ask(web, request)]
+    return [_item(entry, reader) for entry in await _ask(web, request)]
 
 
 @router.get(
@@ -145,7 +148,7 @@ async def _change(web: Backend, message: AddToMemory | RemoveMemory) -> None:
         raise WebProblem(404 if is_unknown else 507, event.message or "That could not be stored.")
 
 
-def _item(entry: MemoryEntry) -> MemoryItem:
+def _item(entry: MemoryEntry, language: SpokenLanguage) -> MemoryItem:
     is_image = entry.type == "image"
     query = urlencode({"name": entry.name} | ({"scope": entry.scope} if entry.scope else {}))
     return MemoryItem(
@@ -154,6 +157,7 @@ def _item(entry: MemoryEntry) -> MemoryItem:
         type=entry.type,
         data=f"/api/memory/image?{query}" if is_image else entry.data,
         info=entry.info,
+        told=_told(entry, language),
         source=entry.source,
         way=entry.way,
         words=entry.words,
@@ -162,3 +166,13 @@ def _item(entry: MemoryEntry) -> MemoryItem:
         used_unix_ms=entry.used_unix_ms,
         used_count=entry.used_count,
     )
+
+
+_POINT: Final = re.compile(r" at the point \(-?[\d.]+, -?[\d.]+\)")
+"""Where on the map something was, which robots alone can use."""
+
+
+def _told(entry: MemoryEntry, language: SpokenLanguage) -> str:
+    """What robots note is put into the reader's words; what people said stays."""
+    text = entry.info if entry.type == "image" else entry.data
+    return text if entry.is_told else in_language(_POINT.sub("", text), language)
