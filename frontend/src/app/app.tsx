@@ -8,7 +8,7 @@ import { connect } from '@/live/connection';
 import { keepStopLine } from '@/live/stop-line';
 import { applyLook, usePrefs } from '@/state/prefs';
 import { keepFocus } from '@/ui/keep-focus';
-import { holdSecondClicks } from '@/ui/second-click';
+import { useDoublePress } from '@/ui/use-double-press';
 import { useHashPath } from '@/ui/use-hash';
 
 import { Shell } from './shell';
@@ -25,8 +25,8 @@ export function App() {
   const { state, refresh } = session;
   useEffect(() => (state === 'open' ? connect(language, refresh) : undefined), [state, refresh, language]);
   useEffect(() => (state === 'open' ? keepStopLine() : undefined), [state]);
-  useEffect(holdSecondClicks, []);
   useEffect(keepFocus, []);
+  useDoublePress();
   return (
     <I18nProvider locale={language === 'en' ? 'en-GB' : language}>
       <Router hook={useHashPath}>

@@ -11,7 +11,6 @@ import { Boundary } from '@/ui/boundary';
 import { Button } from '@/ui/button';
 import { StopButton } from '@/ui/stop-button';
 import { useIsLow, useLayout } from '@/ui/use-media';
-import { useDoublePress } from '@/ui/use-double-press';
 import { useShortcut } from '@/ui/use-shortcut';
 
 import { CommandPalette } from './command-palette';
@@ -42,7 +41,6 @@ export function Shell(props: Props) {
   useRobotShortcuts();
   useNotices();
   useHeard();
-  useDoublePress();
   const words = { message: t('crashed'), again: t('crashedAgain') };
   return (
     <div className={css.shell} data-layout={layout}>

@@ -1,3 +1,4 @@
+import { useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { commandPlan, type PlanCommand } from '@/live/api';
@@ -9,6 +10,9 @@ import { quoted, sentence } from '@/ui/words';
 
 import css from './plan-panel.module.css';
 import { usePutBack } from './use-saving';
+
+/** Pressed once more within it, it is one press: a step left out by the first would be missed by the second. */
+const MOMENT_MS = 500;
 
 /** States in which there is nothing to control. */
 const RESTING: readonly PlanView['state'][] = ['idle', 'awaiting_approval', 'ended'];
@@ -23,7 +27,13 @@ interface Props {
 export function PlanControls({ plan, onEdit }: Props) {
   const { t } = useTranslation('plan');
   const offer = usePutBack(plan);
-  const order = (command: PlanCommand, step = '') => attempt(() => commandPlan(plan.robot, command, step));
+  const last = useRef({ what: '', atMs: 0 });
+  const order = (command: PlanCommand, step = '') => {
+    const [before, what, atMs] = [last.current, `${command} ${step}`, Date.now()];
+    if (what === before.what && atMs - before.atMs < MOMENT_MS) return Promise.resolve(false);
+    last.current = { what, atMs };
+    return attempt(() => commandPlan(plan.robot, command, step));
+  };
   if (plan.kind !== 'plan' || RESTING.includes(plan.state)) return null;
   const standing = plan.state === 'paused' || plan.state === 'held';
   const left = linesOf(plan.steps).filter((line) => !isEarlier(line));
