@@ -16,7 +16,9 @@ const NAMED = 'place';
  * @param isOnly Whether nothing else is of its kind: of things with names the kind alone tells none from another.
  */
 export const textsOf = ({ description, kind }: MapThing, scale: number, isOnly: boolean): readonly string[] => {
-  const sort = kind === NAMED ? '' : kind;
+  const at = description.toLowerCase().indexOf(kind.toLowerCase());
+  const written = at < 0 ? kind : description.slice(at, at + kind.length); // “TV” is “tv” among kinds
+  const sort = kind === NAMED ? '' : written;
   const isName = !sort || description.length <= NAME_LETTERS || description.toLowerCase().endsWith(sort.toLowerCase());
   const named = isName || scale >= DESCRIBING_SCALE ? [description] : [];
   return [...named, ...(isName && description && !isOnly ? [] : [sort])].filter(Boolean).map((name) => name.replaceAll('_', ' '));

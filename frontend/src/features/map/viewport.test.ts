@@ -136,6 +136,7 @@ describe('labels on a map', () => {
     expect(texts('red box', 20)).toEqual(['red box', 'box']);
     expect(texts('very large red storage box', 20, false)).toEqual(['very large red storage box']);
     expect(texts('box by the front door', 20)).toEqual(['box']);
+    expect(texts('BOX by the front door', 20)).toEqual(['BOX']);
     expect(texts('box by the front door', 100)).toEqual(['box by the front door', 'box']);
   });
 
