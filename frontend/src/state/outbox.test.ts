@@ -48,6 +48,16 @@ describe('a message that did not get through', () => {
     }
   });
 
+  it('goes when something else is said, where it was an answer that came too late, and says why till then', async () => {
+    const { send } = useOutbox.getState();
+    vi.stubGlobal('fetch', () => Promise.resolve(new Response('{"detail": "Settled."}', { status: 409 })));
+    await send({ text: 'the red one', targets: ['Ada'], reply_to: 'q', images: [] });
+    await loadAgain();
+    expect(useOutbox.getState().messages).toMatchObject([{ text: 'the red one', refused: true, reason: 'Settled.' }]);
+    await send({ text: 'come here', targets: ['Ada'], reply_to: '', images: [] });
+    expect(useOutbox.getState().messages).toMatchObject([{ text: 'come here' }]);
+  });
+
   it('is forgotten when it is discarded', async () => {
     await useOutbox.getState().send({ text: 'wave', targets: ['Ada'], reply_to: '', images: [] });
     useOutbox.getState().discard(useOutbox.getState().messages[0]?.id ?? '');

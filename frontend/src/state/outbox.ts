@@ -95,7 +95,8 @@ const outbox: StateCreator<Outbox> = (set, get) => {
       const begun: Outgoing = { ...outgoing, unixMs: Date.now(), state: 'sending', reason: '', insists: callsToStop(message.text, useLive.getState().world) };
       last = begun;
       useToasts.getState().anew();
-      set((now) => ({ messages: [...now.messages, begun] }));
+      // Who says something else has seen that an answer came too late.
+      set((now) => ({ messages: [...now.messages.filter((one) => !(one.refused && one.reply_to)), begun] }));
       await inTurn(outgoing);
     },
     retry: async (id) => {
@@ -110,7 +111,7 @@ const outbox: StateCreator<Outbox> = (set, get) => {
 };
 
 /** What was on its way when the page was loaded again may not have arrived: it can be sent again, under the same key; a stop is. */
-const unsure = (message: Outgoing): Outgoing => ({ ...message, state: 'failed', reason: '' });
+const unsure = (message: Outgoing): Outgoing => ({ ...message, state: 'failed', reason: message.refused ? message.reason : '' });
 
 export const useOutbox = create<Outbox>()(
   persist(outbox, {

@@ -1,6 +1,7 @@
 import { beforeEach, expect, it } from 'vitest';
 
 import { ApiError } from '@/live/api';
+import { useLive } from '@/live/store';
 
 import { attempt } from './do';
 import { useOutbox } from './outbox';
@@ -25,4 +26,15 @@ it('goes also when the next thing is said instead of pressed; what else is true 
   await refuse('That plan is over.');
   void useOutbox.getState().send({ text: 'go on', targets: ['Ada'], reply_to: '', images: [] });
   expect(shown()).toEqual(['Ada still waits for you.']);
+});
+
+it('goes when the server is reached again, whenever it was that the connection was lost', async () => {
+  for (const isKnown of [true, false]) {
+    useLive.setState({ connection: isKnown ? 'lost' : 'connected' });
+    await attempt(() => Promise.reject(new ApiError(0, '')));
+    expect(shown()).toHaveLength(1);
+    if (!isKnown) useLive.setState({ connection: 'lost' });
+    useLive.setState({ connection: 'connected' });
+    expect(shown()).toEqual([]);
+  }
 });

@@ -55,7 +55,7 @@ useLive.subscribe((live) => keep(({ stands }) => typeof stands !== 'function' ||
 
 /** Holds until the connection was lost and is there again. */
 export function untilReached(): (live: Live) => boolean {
-  let lost = false;
+  let lost = useLive.getState().connection === 'lost'; // perhaps known before this was tried
   return ({ connection }) => {
     lost ||= connection === 'lost';
     return !lost || connection !== 'connected';
