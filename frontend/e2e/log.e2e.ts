@@ -39,7 +39,7 @@ describe.skipIf(!hasBrowser)('the log', () => {
     await page.getByRole('button', { name: 'Handover' }).focus();
     await page.keyboard.press('Enter');
     const sheet = page.getByRole('article');
-    await sheet.getByText('David is stopped and stays so until somebody releases it.').waitFor();
+    await sheet.getByText(/^David is stopped until somebody releases it, with steps left: Go to/).waitFor();
     expect(await sheet.innerText()).toMatch(/\d\d:\d\d .* to David: Go to the dining table\.[^]*Stops[^]*stopped all robots\./);
     await page.emulateMedia({ media: 'print' });
     expect(await page.getByRole('button', { name: 'Print' }).isVisible()).toBe(false);
