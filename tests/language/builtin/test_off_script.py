@@ -438,6 +438,8 @@ def test_what_comes_first_is_said_beside_an_order(said: str, where: list[str] | 
         ("never mind, go back to the moon", "I do not know any “moon” here"),
         ("a van is parked by bay 2", "For now I keep in mind that a van is parked by bay 2. Shall I go to"),
         ("great, remember the parcel is packed", "I will remember that the parcel is packed."),
+        ("remember the driver comes at five", "I will remember that the driver comes at five."),
+        ("quick, is bay 2 free?", "Shall I go and look?"),
     ],
 )
 def test_what_was_said_off_script_is_answered(said: str, told: str) -> None:

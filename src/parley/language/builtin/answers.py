@@ -137,9 +137,10 @@ def look_asked_for(tokens: Sequence[Token], names: Sequence[Named], called: Cont
     return f"check if {' '.join(subject)} {being} {' '.join(state)}"
 
 
-_OPENING: Final = frozenset(
-    {"so", "and", "ok", "okay", "hey", "please", "well", "hi", "hello", "good", "morning", "evening", "sorry"}
-)
+_OPENING: Final = frozenset({
+    "so", "and", "ok", "okay", "hey", "please", "well", "hi", "hello", "good", "morning", "evening", "sorry",
+    "quick", "listen",
+})  # fmt: skip
 _ANY: Final = frozenset(
     {"anybody", "anyone", "somebody", "someone", "anything", "something", "everything", "nobody", "all"}
 )
