@@ -28,7 +28,7 @@ describe.skipIf(!hasBrowser)('an operator whose robot needs help', () => {
     await say(page, 'I have put it on you.');
     await page.locator('li[data-question="answered"]').first().waitFor();
 
-    await page.getByRole('group', { name: 'Possible answers' }).getByRole('button', { name: /small/ }).tap({ timeout: 60_000 });
+    await page.getByRole('group', { name: 'Possible answers' }).getByRole('button', { name: /small/i }).tap({ timeout: 60_000 });
     await page.locator('li[data-question="answered"]').nth(1).waitFor();
   });
 
