@@ -158,7 +158,7 @@ describe('the chat', () => {
     const user = show({ chat: [question] });
     expect(tab('Ada').textContent).toContain('waiting for your answer');
     await user.type(screen.getByRole('textbox', { name: 'Write to Ada' }), 'the green one{Enter}');
-    await user.click(screen.getByRole('button', { name: 'blue' }));
+    await user.click(screen.getByRole('button', { name: 'Blue' }));
     expect(sent).toMatchObject([
       { text: 'the green one', reply_to: 'q' },
       { text: 'blue', reply_to: 'q', targets: ['Ada'] },
@@ -171,14 +171,14 @@ describe('the chat', () => {
     const question = entry({ id: 'q', seq: 3, type: 'request', message: 'Which door?', question: 'open', choices: ['red'], targets: ['Bob'] });
     const user = show({ chat: [help, noted, question], plans: [plan({ robot: 'Ada', state: 'held' })] });
     expect(tab('Ada').textContent).toContain('Ada is waiting for your answer');
-    await user.click(within(screen.getByRole('region', { name: 'Ada asks' })).getByRole('button', { name: 'skip it' }));
+    await user.click(within(screen.getByRole('region', { name: 'Ada asks' })).getByRole('button', { name: 'Skip it' }));
     expect(sent).toMatchObject([{ text: 'skip it', targets: ['Ada'], reply_to: 'h' }]);
 
     await user.click(tab('Bob'));
     const ask = screen.getByRole('region', { name: 'Bob asks' });
     expect(within(ask).getByText(/Which door/)).toBeTruthy();
     expect(within(ask).queryByRole('button', { name: 'Forget it' })).toBeNull(); // nobody waits for that
-    expect(screen.getAllByRole('button', { name: 'red' })).toHaveLength(1);
+    expect(screen.getAllByRole('button', { name: 'Red' })).toHaveLength(1);
   });
 
   it('undoes by a tap what a robot concluded by itself', async () => {
