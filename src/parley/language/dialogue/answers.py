@@ -463,8 +463,8 @@ def _places(situation: Situation, about: str) -> str:
     near = sorted(situation.objects, key=lambda item: distance_m(item, at) if at is not None else 0.0)
     names = [called(name) for name in (*rooms(situation.objects), *(item.description for item in near))]
     shown = [*dict.fromkeys(names)]
-    more = f", and to {counted(len(shown) - _PLACES, 'more place')}" if len(shown) > _PLACES else ""
-    return f"I can go to {listed(shown[:_PLACES], 'or')}{more}." if shown else ""
+    more = f" More places on my map: {len(shown) - _PLACES}." if len(shown) > _PLACES else ""
+    return f"I can go to {listed(shown[:_PLACES], 'or')}.{more}" if shown else ""
 
 
 _PLACES: Final = 12
