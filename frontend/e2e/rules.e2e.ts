@@ -86,7 +86,7 @@ describe.skipIf(!hasBrowser)('rules', () => {
     const page = await stage.open(sizes.phone, '#/');
     await say(page, 'never drive faster than 0.1 m/s at night');
     await page.getByText('I understand this as a rule: Not faster than 0.1 m/s between 22:00 and 06:00').first().waitFor();
-    await page.getByRole('button', { name: 'yes', exact: true }).click();
+    await page.getByRole('button', { name: 'Yes', exact: true }).click();
     await page.getByText('The rule holds from now on').first().waitFor();
     await page.goto(`${stage.system.address}#/rules`);
     await page.getByText('Told: “never drive').first().waitFor();
@@ -101,7 +101,7 @@ describe.skipIf(!hasBrowser)('rules', () => {
     await expect.poll(() => drawn.count()).toBe(2);
     await page.screenshot({ path: `${PICTURES}/told.png` });
     expect(await barriers(page)).toEqual([]);
-    await page.getByRole('button', { name: 'no', exact: true }).first().click();
+    await page.getByRole('button', { name: 'No', exact: true }).first().click();
     await expect.poll(() => drawn.count()).toBe(0);
   });
 });
