@@ -214,7 +214,6 @@ describe.skipIf(!hasBrowser)('an operator with a plan', () => {
     await page.getByText('David is stopped').waitFor({ state: 'detached' });
     await note.waitFor({ state: 'detached' }); // it is not true any more
     expect(distance(await robotNamed(stage), stood)).toBeLessThan(0.25);
-    await page.waitForTimeout(600); // a person's second press, not the end of a double one
     await page.getByRole('button', { name: 'Continue' }).tap();
     await untilItMoved(stage, stood);
   });

@@ -9,7 +9,7 @@ it('takes an answer that is cut off for a server that was not reached', async ()
 });
 
 it('says what the server says, and nothing of what is not for people', async () => {
-  for (const [body, message] of [['{"detail": "Not now."}', 'Not now.'], ['<html>Bad gateway</html>', '']] as const) {
+  for (const [body, message] of [['{"detail": "Not now."}', 'Not now.'], ['<html>Bad gateway</html>', ''], ['{"detail": "Not', '']] as const) {
     vi.stubGlobal('fetch', () => Promise.resolve(new Response(body, { status: 502 })));
     await expect(getModels()).rejects.toEqual(new ApiError(502, message));
   }

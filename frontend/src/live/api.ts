@@ -48,9 +48,9 @@ interface Problem {
 
 const text = (value: unknown): string => (typeof value === 'string' ? value : '');
 
-function failure(status: number, answer: string): ApiError {
-  const { title, detail, remedy } = (answer.startsWith('{') ? JSON.parse(answer) : {}) as Problem;
-  return new ApiError(status, text(detail) || text(title), text(remedy));
+async function failure(status: number, answer: string): Promise<ApiError> {
+  const problem = (await new Response(answer).json().catch(() => ({}))) as Problem; // or a proxy's page, or half of it
+  return new ApiError(status, text(problem.detail) || text(problem.title), text(problem.remedy));
 }
 
 /**
@@ -84,7 +84,7 @@ export async function request<T>(
     throw new ApiError(0, '');
   }
   noteServerDate(response.headers.get('date'), Date.now());
-  if (!response.ok) throw failure(response.status, answer);
+  if (!response.ok) throw await failure(response.status, answer);
   return (answer ? JSON.parse(answer) : undefined) as T;
 }
 

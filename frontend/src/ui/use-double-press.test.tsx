@@ -20,6 +20,9 @@ function Asking() {
     <>
       <Button key={number} onPress={press}>{`Answer ${number}`}</Button>
       <Button onPress={() => said('nearer')}>Nearer</Button>
+      <div data-once>
+        <Button onPress={() => said('skip')}>Skip</Button>
+      </div>
     </>
   );
 }
@@ -47,4 +50,16 @@ it('takes two presses with a key between them for two', async () => {
   await user.keyboard('{Escape}');
   await user.click(screen.getByRole('button', { name: 'Answer 2' }));
   expect(said.mock.calls).toEqual([[1], [2]]);
+});
+
+it('takes a double press of what is done once for one, and a later one for another', async () => {
+  said.mockClear();
+  render(<Asking />);
+  const user = userEvent.setup();
+  await user.dblClick(screen.getByRole('button', { name: 'Skip' }));
+  expect(said.mock.calls).toEqual([['skip']]);
+  vi.spyOn(Date, 'now').mockReturnValue(Date.now() + 1000);
+  await user.click(screen.getByRole('button', { name: 'Skip' }));
+  expect(said.mock.calls).toEqual([['skip'], ['skip']]);
+  vi.restoreAllMocks();
 });

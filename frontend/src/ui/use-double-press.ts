@@ -15,7 +15,10 @@ interface Press {
 
 const saying = (on: Element) => `${on.getAttribute('aria-label') ?? ''} ${on.textContent}`;
 
-/** Keeps the second half of a double press from reaching what has come under the finger meanwhile; stopping always gets through. */
+/**
+ * Keeps the second half of a double press from reaching what has come under the finger meanwhile, and what stands in
+ * `data-once`: a step left out by the first half would be missed by the second. Stopping always gets through.
+ */
 export function useDoublePress(): void {
   useEffect(() => {
     let last: Press | null = null;
@@ -24,7 +27,8 @@ export function useDoublePress(): void {
       const on = event.target instanceof Element ? event.target.closest(PRESSABLE) : null;
       const [before, x, y, at] = [last, event.clientX, event.clientY, Date.now()];
       const again = before && at - before.at < MOMENT_MS && Math.hypot(x - before.x, y - before.y) < NEAR_PX;
-      isStray = Boolean(again && on && !on.closest('[data-stops]') && (on !== before.on || saying(on) !== before.says));
+      const isOther = (from: Press, to: Element) => to !== from.on || saying(to) !== from.says || to.closest('[data-once]');
+      isStray = Boolean(again && on && !on.closest('[data-stops]') && isOther(before, on));
       if (on && !isStray) last = { at, x, y, on, says: saying(on) };
     };
     const swallow = (event: Event) => {

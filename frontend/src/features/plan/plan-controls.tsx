@@ -1,4 +1,3 @@
-import { useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { commandPlan, type PlanCommand } from '@/live/api';
@@ -10,9 +9,6 @@ import { quoted, sentence } from '@/ui/words';
 
 import css from './plan-panel.module.css';
 import { usePutBack } from './use-saving';
-
-/** Pressed once more within it, it is one press: a step left out by the first would be missed by the second. */
-const MOMENT_MS = 500;
 
 /** States in which there is nothing to control. */
 const RESTING: readonly PlanView['state'][] = ['idle', 'awaiting_approval', 'ended'];
@@ -27,13 +23,7 @@ interface Props {
 export function PlanControls({ plan, onEdit }: Props) {
   const { t } = useTranslation('plan');
   const offer = usePutBack(plan);
-  const last = useRef({ what: '', atMs: 0 });
-  const order = (command: PlanCommand, step = '') => {
-    const [before, what, atMs] = [last.current, `${command} ${step}`, Date.now()];
-    if (what === before.what && atMs - before.atMs < MOMENT_MS) return Promise.resolve(false);
-    last.current = { what, atMs };
-    return attempt(() => commandPlan(plan.robot, command, step));
-  };
+  const order = (command: PlanCommand, step = '') => attempt(() => commandPlan(plan.robot, command, step));
   if (plan.kind !== 'plan' || RESTING.includes(plan.state)) return null;
   const standing = plan.state === 'paused' || plan.state === 'held';
   const left = linesOf(plan.steps).filter((line) => !isEarlier(line));
@@ -52,7 +42,7 @@ export function PlanControls({ plan, onEdit }: Props) {
     void drop(order('clear'), gone, t('cleared', { count: left.length }), standing ? t('beginAgain') : undefined);
   };
   return (
-    <div className={css.controls}>
+    <div className={css.controls} data-once>
       {standing ? (
         <Button needs="resume" tone="main" icon="play" onPress={() => void order('resume')}>
           {t('resume')}

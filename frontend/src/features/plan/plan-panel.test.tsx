@@ -108,7 +108,7 @@ describe('the plan', () => {
     ['Skip', { command: 'skip', step: 'two' }, '“Two” is left out.', { two: 'skipped', three: 'running', four: 'queued' }, ['Two', 'Three', 'Four'], ['two', 'three']],
   ])('puts back what was lost by: %s', async (button, body, said, left, again, undoes) => {
     const user = show();
-    await user.dblClick(screen.getByRole('button', { name: button }));
+    await user.click(screen.getByRole('button', { name: button }));
     expect(sent).toEqual([{ method: 'POST', path: '/api/plans/Ada/command', body }]);
     const toast = useToasts.getState().toasts[0];
     expect(toast?.message).toBe(said);
