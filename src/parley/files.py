@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from importlib import resources
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Final, LiteralString, Self, TypeVar
 
 import yaml
@@ -233,9 +234,16 @@ _WORDS_LOADER: Final = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 
 @lru_cache(maxsize=64)
 def words_in(package: str, name: str) -> Any:
-    """The content of a YAML file of words that lies in a package; read once, so nobody may change it.
+    """The content of a YAML file of words that lies in a package; read once for all, so nobody can change it.
 
     Every scalar is text: in such a file ``no`` and ``on`` are words, not truth values.
     """
     text = (resources.files(package) / f"{name}.yaml").read_text(encoding="utf-8")
-    return yaml.load(text, Loader=_WORDS_LOADER)
+    return _unchangeable(yaml.load(text, Loader=_WORDS_LOADER))
+
+
+def _unchangeable(content: Any) -> Any:
+    """Mappings that can only be read, and tuples."""
+    if isinstance(content, dict):
+        return MappingProxyType({key: _unchangeable(value) for key, value in content.items()})
+    return tuple(map(_unchangeable, content)) if isinstance(content, list) else content

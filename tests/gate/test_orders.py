@@ -146,7 +146,7 @@ def test_more_memories_than_anybody_tells_are_left_out_and_that_is_said() -> Non
 
 
 def test_all_ways_of_putting_a_plan_into_another_order_speak_of_a_change() -> None:
-    read = load_data("rearranging")
+    read = {**load_data("rearranging")}
     parts = read.pop("parts")
     for template in (text for templates in read.values() for text in templates):
         filled = re.sub(r"\{(\w+)\}", lambda found: parts[found[1]], template)

@@ -439,6 +439,7 @@ def test_what_comes_first_is_said_beside_an_order(said: str, where: list[str] | 
         ("a van is parked by bay 2", "For now I keep in mind that a van is parked by bay 2. Shall I go to"),
         ("great, remember the parcel is packed", "I will remember that the parcel is packed."),
         ("remember the driver comes at five", "I will remember that the driver comes at five."),
+        ("great, remember it's packed", "I did not understand that."),
         ("quick, is bay 2 free?", "Shall I go and look?"),
     ],
 )

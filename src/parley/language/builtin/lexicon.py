@@ -121,17 +121,11 @@ def lexicon() -> Lexicon:
     frames: dict[str, Frame] = {}
     verbs: dict[tuple[str, ...], set[str]] = {}
     for name, entry in load_data("frames").items():
-        if not isinstance(entry, dict):
-            raise TypeError(f"frames.yaml: {name} is no entry")
         frames[name] = Frame(name, entry["gloss"], entry["roles"], entry["say"], tuple(entry["tests"]))
         for verb in entry.get("verbs", ()):
             verbs.setdefault(tuple(verb.split()), set()).add(name)
-    classes = {
-        name: frozenset(words) for name, words in load_data("classes").items() if isinstance(words, list)
-    }
-    hints = {
-        name: frozenset(words) for name, words in load_data("parameters").items() if isinstance(words, list)
-    }
+    classes = {name: frozenset(words) for name, words in load_data("classes").items()}
+    hints = {name: frozenset(words) for name, words in load_data("parameters").items()}
     called = {words: frozenset(names) for words, names in verbs.items()}
     return Lexicon(frames, called, classes, hints, _synonyms())
 
@@ -139,15 +133,12 @@ def lexicon() -> Lexicon:
 def _synonyms() -> dict[tuple[str, ...], frozenset[tuple[str, ...]]]:
     """The other names of things; of kinds only upwards: a paperback is a book."""
     read = load_data("synonyms")
-    same, kinds = read["same"], read["kind_of"]
-    if not isinstance(same, list) or not isinstance(kinds, dict):
-        raise TypeError("synonyms.yaml: same is a list of groups, kind_of a table")
     found: dict[tuple[str, ...], set[tuple[str, ...]]] = {}
-    for group in same:
+    for group in read["same"]:
         names = [tuple(name.split()) for name in group]
         for name in names:
             found.setdefault(name, set()).update(other for other in names if other != name)
-    for general, special in kinds.items():
+    for general, special in read["kind_of"].items():
         for name in special:
             found.setdefault(tuple(name.split()), set()).add(tuple(general.split()))
     return {name: frozenset(others) for name, others in found.items()}

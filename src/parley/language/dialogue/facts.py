@@ -54,7 +54,7 @@ _KEEP: Final = re.compile(
 _SO: Final = re.compile(
     r",? that (?!(?:picture|photo|image|view|place|spot|one)\b|.*\bas\b)(?:[\w'-]+ ){2,}\w|"
     r",? (?:it|he|she|they|we|i|the (?:\w+ ){1,3}?|\w+ )"
-    r"(?: ?'s| ?'re| ?'m|is |are |was |has |(?:come|goe|need|want|start|open|close|leave|arrive|live)s )\w"
+    r"(?: ?'(?:s|re|m) |is |are |was |has |(?:come|goe|need|want|start|open|close|leave|arrive|live)s )\w"
 )
 
 _WISHING: Final = re.compile(

@@ -7,7 +7,7 @@ nothing else, so that a word that is not understood leaves the plan as it is.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from typing import Final
 
@@ -211,21 +211,16 @@ _MADE: Final[dict[str, _Made]] = {
 @cache
 def _patterns() -> tuple[tuple[re.Pattern[str], _Made], ...]:
     """What the lexicon says about changing the order of a plan."""
-    read = load_data("rearranging")
-    parts = read["parts"]
-    if not isinstance(parts, dict):
-        raise TypeError("rearranging.yaml: parts is a table")
-    found = []
-    for name, templates in read.items():
-        if name == "parts":
-            continue
-        if not isinstance(templates, list):
-            raise TypeError(f"rearranging.yaml: {name} is a list")
-        found += [(re.compile(_pattern(template, parts)), _MADE[name]) for template in templates]
-    return tuple(found)
+    read = {**load_data("rearranging")}
+    parts: Mapping[str, str] = read.pop("parts")
+    return tuple(
+        (re.compile(_pattern(template, parts)), _MADE[name])
+        for name, templates in read.items()
+        for template in templates
+    )
 
 
-def _pattern(template: str, parts: dict[str, str]) -> str:
+def _pattern(template: str, parts: Mapping[str, str]) -> str:
     """A template as a pattern for words, each followed by a blank."""
     text = re.sub(r"\{(\w+)\}", lambda found: parts[found[1]], template)
     pattern = ""
