@@ -11,9 +11,10 @@ from parley.language.base import ErrorSituation, Situation, Turn
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.builtin.tokens import tokenize
 from parley.language.dialogue.following import in_turn
-from parley.language.dialogue.places import rooms, whereabouts
-from parley.language.dialogue.questions import plain, question_of, shapes
+from parley.language.dialogue.map_words import rooms, whereabouts
+from parley.language.dialogue.questions import plain, question_of
 from parley.language.dialogue.state import Asked, Deed, Dialogue, Order, Stop
+from parley.language.lexicon import load_data
 from parley.messages.chat import ActionCall
 from parley.messages.memory import MemoryEntry
 from parley.messages.status import PlanStep
@@ -21,6 +22,7 @@ from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 from tests.language.builtin.worlds import CATALOGUE, action
 
+TESTS: dict[str, tuple[str, ...]] = load_data("questions")["tests"]
 ENGINE = BuiltinLanguage()
 WAY = action("drive_to", "Drive.", "place").model_copy(update={"effects": ("moves",)})
 THINGS = (MapObject("b", "box in the hall", 0.0, 0.0), MapObject("g", "gate", 9.0, 0.0))
@@ -54,7 +56,7 @@ async def said(message: str, dialogue: Dialogue, question: str = "") -> str:
     return answer.message_response
 
 
-@pytest.mark.parametrize(("topic", "sentence"), [(s.topic, t) for s in shapes() for t in s.tests])
+@pytest.mark.parametrize(("topic", "sentence"), [(topic, said) for topic in TESTS for said in TESTS[topic]])
 def test_each_shape_is_read_as_its_topic(topic: str, sentence: str) -> None:
     for said_so in (f"ok so {sentence} now please?", f"Hi there, {sentence}?"):
         found = question_of(plain(tokenize(said_so), ("Bo",)))

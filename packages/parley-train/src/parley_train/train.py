@@ -183,8 +183,8 @@ def _item(pieces: WordPiece, sentence: Annotated) -> _Item:
     size = len(split.first)
     tags = {name: [_IGNORED] * size for name in HEADS}
     arcs = [_IGNORED] * size
-    tags["act"] = [labels.ACT_TAGS.index(act) for act in sentence.acts[:size]]
-    tags["move"] = [labels.MOVE_TAGS.index(move) for move in sentence.moves[:size]]
+    tags["act"] = [labels.ACTS.index(act) for act in sentence.acts[:size]]
+    tags["move"] = [labels.MOVES.index(move) for move in sentence.moves[:size]]
     tags["frame"], tags["role"] = [0] * size, [0] * size
     for trigger in sentence.triggers:
         for place in range(trigger.start, min(trigger.end, size)):
@@ -196,7 +196,7 @@ def _item(pieces: WordPiece, sentence: Annotated) -> _Item:
                 tags["frame"][place] = labels.FRAME_TAGS.index("+")
                 arcs[place] = trigger.start + 1
         if trigger.start < size:
-            tags["mode"][trigger.start] = labels.MODE_TAGS.index(trigger.mode)
+            tags["mode"][trigger.start] = labels.MODES.index(trigger.mode)
     for span in sentence.roles:
         for place in range(span.start, min(span.end, size)):
             tags["role"][place] = labels.ROLE_TAGS.index(f"{'I' if place > span.start else 'B'}-{span.role}")

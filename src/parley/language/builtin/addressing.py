@@ -12,14 +12,12 @@ from parley.language.builtin.decision import Ask, Decision, Do
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.tokens import Token
 from parley.language.dialogue.speaker import Again
+from parley.language.lexicon import word_set
 
 __all__ = ["addressed", "for_nobody", "uncalled"]
 
 _BETWEEN = frozenset({"and", ",", "&", ":", "!", "-"})
-_BEFORE = frozenset({
-    "hey", "hello", "hi", "ok", "okay", "please", "so", "now", "well", "yes", "no", "and", "right", "oh",
-    "both", ",",
-})  # fmt: skip
+_BEFORE = word_set("hey hello hi ok okay please so now well yes no and right oh both ,")
 _MARKS = ([","], ["!"], [":"])
 _ENDS = frozenset({".", "?", "!", ";"})
 _ASKING = [[word, "you"] for word in ("can", "could", "would", "will")]

@@ -7,35 +7,27 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from parley.language.builtin.lexicon import Lexicon
+from parley.language.lexicon import word_map, word_set
 
-__all__ = ["UNITS", "Amount", "amount_of", "direction_of", "in_unit", "is_compass"]
+__all__ = ["ORDINALS", "UNITS", "Amount", "amount_of", "direction_of", "in_unit", "is_compass"]
 
 _SMALL = """zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen
 sixteen seventeen eighteen nineteen"""
 _ONES = {word: number for number, word in enumerate(_SMALL.split())} | {"twice": 2, "thrice": 3}
-_TENS = {
-    "twenty": 20, "thirty": 30, "forty": 40, "fourty": 40, "fifty": 50, "sixty": 60, "seventy": 70,
-    "eighty": 80,
-    "ninety": 90,
-}  # fmt: skip
-UNITS = {
-    "m": "m", "metre": "m", "meter": "m", "metres": "m", "meters": "m", "cm": "cm", "centimetre": "cm",
-    "centimeter": "cm", "centimetres": "cm", "centimeters": "cm", "inch": "inches", "inches": "inches",
-    "foot": "feet", "feet": "feet", "ft": "feet", "yard": "yards", "yards": "yards", "degree": "degrees",
-    "degrees": "degrees", "deg": "degrees", "°": "degrees", "mm": "mm", "millimetres": "mm",
-    "millimeters": "mm",
-    "second": "s", "seconds": "s", "s": "s", "sec": "s", "minute": "min", "minutes": "min", "min": "min",
-    "hour": "h", "hours": "h", "radians": "radians",
-}  # fmt: skip
+_ROUND = "twenty thirty forty fifty sixty seventy eighty ninety"
+_TENS = {word: 10 * tens for tens, word in enumerate(_ROUND.split(), 2)} | {"fourty": 40}
+UNITS = word_map("""m:m metre:m meter:m metres:m meters:m cm:cm centimetre:cm centimeter:cm centimetres:cm
+centimeters:cm inch:inches inches:inches foot:feet feet:feet ft:feet yard:yards yards:yards degree:degrees
+degrees:degrees deg:degrees °:degrees mm:mm millimetres:mm millimeters:mm second:s seconds:s s:s sec:s
+minute:min minutes:min min:min hour:h hours:h radians:radians""")
 _LENGTHS = frozenset({"m", "cm", "inches", "feet", "yards", "mm"})
 _ANGLES = frozenset({"degrees", "radians"})
-_SAID_SO = frozenset({
-    "about", "at", "least", "another", "by", "around", "exactly", "roughly", "approximately", "more",
-    "some", "for",
-    "only", "just", "maybe", "turn", "of", "a", "an", "the", "and", "like", "half", "quarter", "full",
-    "hundred", "couple",
-    "uh", "um", "to", "your", "circle", "say", "perhaps",
-})  # fmt: skip
+ORDINALS = {
+    "first": 0, "1st": 0, "second": 1, "2nd": 1, "third": 2, "3rd": 2, "fourth": 3, "4th": 3, "fifth": 4,
+    "5th": 4, "last": -1, "final": -1,
+}  # fmt: skip
+_SAID_SO = word_set("""about at least another by around exactly roughly approximately more some for only
+just maybe turn of a an the and like half quarter full hundred couple uh um to your circle say perhaps""")
 
 
 @dataclass(frozen=True, slots=True)

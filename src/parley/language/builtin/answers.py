@@ -15,8 +15,8 @@ from parley.language.builtin.saying import as_said, with_article
 from parley.language.builtin.spatial import picked
 from parley.language.builtin.things import link, noun_phrase
 from parley.language.builtin.tokens import Token, tokenize
-from parley.language.dialogue.mentions import Named, named, named_alone
-from parley.language.dialogue.places import distance_m, lies, whereabouts
+from parley.language.dialogue.map_words import Named, distance_m, lies, named, named_alone, whereabouts
+from parley.language.lexicon import word_set
 from parley.world.object_map import MapObject
 
 __all__ = ["answer", "look_asked_for", "most_asked"]
@@ -137,18 +137,11 @@ def look_asked_for(tokens: Sequence[Token], names: Sequence[Named], called: Cont
     return f"check if {' '.join(subject)} {being} {' '.join(state)}"
 
 
-_OPENING: Final = frozenset({
-    "so", "and", "ok", "okay", "hey", "please", "well", "hi", "hello", "good", "morning", "evening", "sorry",
-    "quick", "listen",
-})  # fmt: skip
-_ANY: Final = frozenset(
-    {"anybody", "anyone", "somebody", "someone", "anything", "something", "everything", "nobody", "all"}
-)
+_OPENING: Final = word_set("so and ok okay hey please well hi hello good morning evening sorry quick listen")
+_ANY: Final = word_set("anybody anyone somebody someone anything something everything nobody all")
 _WHERE: Final = frozenset({"in", "at", "on", "inside", "under", "by", "near"})
-_PLACED: Final = frozenset({
-    "at", "in", "on", "near", "far", "away", "close", "here", "by", "next", "behind", "beside", "under",
-    "where", "to", "from", "or", "called", "yours", "mine", "it", "that", "left", "right",
-})  # fmt: skip
+_PLACED: Final = word_set("""at in on near far away close here by next behind beside under where to from or
+called yours mine it that left right""")
 
 
 def _is_about_failure(situation: Situation, lexicon: Lexicon) -> bool:

@@ -15,15 +15,14 @@ from parley.language.builtin.sets import group
 from parley.language.builtin.things import link
 from parley.language.builtin.tokens import tokenize
 from parley.language.builtin.ways import Ways
+from parley.language.lexicon import word_set
 from parley.world.object_map import MapObject
 
 __all__ = ["Look", "check", "seen_at", "whole_names"]
 
 _SEEING = frozenset({"see", "find", "notice", "spot", "discover", "meet"})
 _SPEAKERS = frozenset({"i", "we", "you"})
-_WHERE = frozenset(
-    {"in", "on", "at", "under", "behind", "near", "by", "inside", "into", "beside", "below", "above"}
-)
+_WHERE = word_set("in on at under behind near by inside into beside below above")
 
 
 @dataclass(frozen=True, slots=True)

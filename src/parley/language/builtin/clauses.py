@@ -14,6 +14,7 @@ from parley.language.builtin.amounts import amount_of
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.spans import Parse
 from parley.language.builtin.tokens import Token
+from parley.language.lexicon import word_set
 
 __all__ = ["Clause", "Link", "clauses"]
 
@@ -28,9 +29,7 @@ _JOINS = frozenset({"and", "then", "but", "or"})
 _PREFIXES = frozenset({"else", "so", "first", "next"})
 """Links that stand before a clause of their own, and open no part of another."""
 _SKIPPING = frozenset({"skip", "skipping", "leave", "leaving", "ignore", "omit"})
-_LEADS_IN = frozenset(
-    {"i", "you", "please", "just", "'d", "would", "could", "can", "should", "must", "like", "to"}
-)
+_LEADS_IN = word_set("i you please just 'd would could can should must like to")
 
 
 @dataclass(frozen=True, slots=True)

@@ -30,8 +30,9 @@ from parley.language.builtin.wishes import Wish
 from parley.language.dialogue import policy
 from parley.language.dialogue.facts import is_report, is_wish, own_words
 from parley.language.dialogue.indirect import meant
-from parley.language.dialogue.mentions import named
+from parley.language.dialogue.map_words import named
 from parley.language.dialogue.speaker import Again, name_of
+from parley.language.lexicon import word_set
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
 
@@ -273,13 +274,9 @@ def _alone(heard: Heard) -> Decision:
     return Do(tuple(deeds), tuple(builder.notes), told, () if isinstance(robots, Ask) else robots)
 
 
-_ANCHORS = frozenset({
-    "of", "near", "by", "beside", "behind", "under", "above", "below", "next", "opposite", "close", "with",
-    "between", "in", "on", "inside", "past", "around", "without", "except", "but", "not",
-})  # fmt: skip
-_PICKING = frozenset(
-    {"nearest", "closest", "furthest", "farthest", "between", "nearer", "closer", "left", "right"}
-)
+_ANCHORS = word_set("""of near by beside behind under above below next opposite close with between in on
+inside past around without except but not""")
+_PICKING = word_set("nearest closest furthest farthest between nearer closer left right")
 """What leads to a name that only tells where something else is, or what is left out."""
 
 

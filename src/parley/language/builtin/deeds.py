@@ -12,7 +12,6 @@ from parley.language.builtin.grounding import WITHIN, Value, is_somebody
 from parley.language.builtin.handling import HANDLED, is_place
 from parley.language.builtin.judging import asked
 from parley.language.builtin.lexicon import lemmas, stem
-from parley.language.builtin.own_action import OwnAction
 from parley.language.builtin.owned import owned
 from parley.language.builtin.saying import with_article
 from parley.language.builtin.spans import Filler
@@ -20,7 +19,8 @@ from parley.language.builtin.speaking import followed, spoken
 from parley.language.builtin.structure import Part
 from parley.language.builtin.things import Mention, head_of, link
 from parley.language.builtin.tokens import TITLES
-from parley.language.builtin.wishes import Wish
+from parley.language.builtin.wishes import OwnAction, Wish
+from parley.language.lexicon import word_set
 from parley.messages.status import Kind
 from parley.umrf.kinds import parameters_of
 
@@ -508,9 +508,7 @@ _STANDING = {
     "SAY": "R", "PUT": "T", "ANSWER": "R", "COUNT": "T", "LOOK": "T",
 }  # fmt: skip
 """Who or what may stand somewhere that is said with the name."""
-_CLAUSE = frozenset(
-    {"'s", "'", "how", "what", "whether", "who", "whoever", "whatever", "which", "where", "when", "rest"}
-)
+_CLAUSE = word_set("'s ' how what whether who whoever whatever which where when rest")
 """Words with which a description begins that is more than a name."""
 _RETURNING = frozenset({"go", "come", "get", "head", "drive", "return"})
 _ITSELF = {frame: frozenset({"yourself", "itself"}) for frame in ("CONNECT", "DISC")}

@@ -9,14 +9,8 @@ from functools import lru_cache, partial
 from types import TracebackType
 from typing import Self
 
-from parley.language.base import (
-    DraftHandler,
-    ErrorSituation,
-    Grounding,
-    InspectionReport,
-    ReplyReading,
-    Situation,
-)  # fmt: skip
+from parley.language import base
+from parley.language.base import DraftHandler, Situation
 from parley.language.builtin import pictures
 from parley.language.builtin.addressing import uncalled
 from parley.language.builtin.amending import amended
@@ -245,39 +239,39 @@ class BuiltinLanguage:
         empty = classes["small"] | classes["prepositions"] | classes["determiners"]
         return {stem(token.low) for token in tokenize(text) if token.is_word and token.low not in empty}
 
-    async def resolve(self, situation: ErrorSituation) -> ChatAction:
+    async def resolve(self, situation: base.ErrorSituation) -> ChatAction:
         """See `Language.resolve`."""
         repairer = Repairer(self._lexicon, self.decide, self.reading)
         return await asyncio.to_thread(repairer.resolve, situation)
 
     async def ground(
         self, description: str, objects: Sequence[MapObject], pose: Pose2D | None = None
-    ) -> Grounding:
+    ) -> base.Grounding:
         """See `Language.ground`."""
         words = [token.low for token in tokenize(description) if token.is_word]
         if not words:
-            return Grounding("none")
+            return base.Grounding("none")
         exact = [
             item
             for item in objects
             if description.strip().lower() in (item.description.lower(), item.id.lower())
         ]
         if len(exact) == 1:
-            return Grounding("match", tuple(exact))
+            return base.Grounding("match", tuple(exact))
         found = link(words, head_of(words, self._lexicon), objects, self._lexicon)
         kinds = {"one": "match", "several": "ambiguous"}
         outcome = kinds.get(found.kind)
         if outcome == "match":
-            return Grounding("match", found.things)
-        return Grounding("ambiguous", found.things) if outcome else Grounding("none")
+            return base.Grounding("match", found.things)
+        return base.Grounding("ambiguous", found.things) if outcome else base.Grounding("none")
 
     async def inspect(
         self, image: CameraImage, request: str, rules: Sequence[str] = (), known: ObjectMap | None = None
-    ) -> InspectionReport:
+    ) -> base.InspectionReport:
         """See `Language.inspect`."""
         return pictures.inspect(image, request, known)
 
-    async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:
+    async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> base.ReplyReading:
         """See `Language.read_reply`."""
         said = any(token.is_word for token in tokenize(reply))
         return read_reply(question, reply, choices, self.reading(reply) if said else None)

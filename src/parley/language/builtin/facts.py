@@ -15,6 +15,7 @@ from parley.language.builtin.structure import Part
 from parley.language.builtin.things import noun_phrase
 from parley.language.builtin.wishes import Wish
 from parley.language.dialogue.standing import read_rule
+from parley.language.lexicon import word_set
 from parley.messages.memory import MemoryEntry
 
 __all__ = ["Place", "known_place", "places", "rule_of", "told_of"]
@@ -93,9 +94,7 @@ _TO = re.compile(r"^(?:in|on)?to\b")
 _GONE = re.compile(r"n['’]t\b|\b(?:not|no longer|never|left)\b")
 _END = re.compile(r"[.,;:!?]|\b(?:and|but|so|because|or|then|please)\b|$", re.IGNORECASE)
 _LINKED = re.compile(r"that\s+", re.IGNORECASE)
-_LEADING_IN = frozenset(
-    {"remember", "note", "mind", "think", "believe", "guess", "yes", "no", "and", "but", "or"}
-)
+_LEADING_IN = word_set("remember note mind think believe guess yes no and but or")
 
 
 def _whole(message: str, start: int, end: int, lexicon: Lexicon) -> str:

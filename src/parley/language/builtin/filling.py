@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from parley.language.builtin.amounts import UNITS, Amount, amount_of, direction_of
 from parley.language.builtin.lexicon import Lexicon, lemmas, stem
 from parley.language.builtin.spans import Filler
+from parley.language.lexicon import word_map
 from parley.messages.status import ParameterInfo
 from parley.pairing import best_pairs
 from parley.umrf.kinds import words_of_name
@@ -215,13 +216,9 @@ def _says(word: str, slots: Slots) -> bool:
 
 
 _IDLE = frozenset({"deep", "high", "tall", "long", "wide", "thick", "times", "up", "down", "number"})
-_OTHER_UNITS = {
-    "percent": "percent", "%": "percent", "celsius": "celsius", "c": "celsius", "°": "celsius",
-    "grams": "grams",
-    "gram": "grams", "g": "grams", "kg": "kilograms", "kilos": "kilograms", "kilo": "kilograms", "kilograms":
-    "kilograms", "litres": "litres", "liters": "litres", "litre": "litres", "liter": "litres", "l": "litres",
-    "ml": "millilitres", "millilitres": "millilitres", "rpm": "rpm",
-}  # fmt: skip
+_OTHER_UNITS = word_map("""percent:percent %:percent celsius:celsius c:celsius °:celsius grams:grams
+gram:grams g:grams kg:kilograms kilos:kilograms kilo:kilograms kilograms:kilograms litres:litres
+liters:litres litre:litres liter:litres l:litres ml:millilitres millilitres:millilitres rpm:rpm""")
 _SCALES = {
     ("grams", "kilograms"): 0.001, ("kilograms", "grams"): 1000.0, ("millilitres", "litres"): 0.001,
     ("litres", "millilitres"): 1000.0,

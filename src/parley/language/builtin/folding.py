@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.spans import Parse, Span, Verb
+from parley.language.lexicon import word_set
 
 __all__ = ["folded", "requested"]
 
@@ -186,9 +187,7 @@ def _led(parse: Parse, number: int, at: int, end: int, low: list[str]) -> Parse:
 
 
 _MODALS = frozenset({"can", "could", "would"})
-_KNOWING = frozenset(
-    {"tell", "say", "see", "hear", "explain", "show", "feel", "smell", "swim", "read", "speak"}
-)
+_KNOWING = word_set("tell say see hear explain show feel smell swim read speak")
 """Who asks whether the robot can do so wants to know something."""
 
 

@@ -19,18 +19,15 @@ from parley.language.builtin.spatial import beside, picked
 from parley.language.builtin.things import Mention, head_of, link, noun_phrase
 from parley.language.builtin.tokens import Token, point_of, tokenize
 from parley.language.builtin.wishes import Wish
-from parley.language.dialogue.mentions import named, same_kind
-from parley.language.dialogue.places import distance_m, in_room
+from parley.language.dialogue.map_words import distance_m, in_room, named, same_kind
 from parley.language.dialogue.speaker import name_of
-from parley.language.lexicon import load_data
+from parley.language.lexicon import load_data, word_set
 from parley.umrf.kinds import is_word_for
 from parley.world.object_map import MapObject
 
 __all__ = ["WITHIN", "Grounder", "Value", "is_somebody"]
 
-_MOVABLE = frozenset(
-    {"TAKE", "BRING", "GIVE", "PUT", "FIND", "COUNT", "POUR", "CUT", "MIX", "COOK", "DO", "MAKE"}
-)
+_MOVABLE = word_set("TAKE BRING GIVE PUT FIND COUNT POUR CUT MIX COOK DO MAKE")
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,15 +7,14 @@ from dataclasses import dataclass
 from typing import Final, Literal
 
 from parley.language.builtin.lexicon import lexicon, stem
+from parley.language.lexicon import word_set
 
 __all__ = ["OPEN", "Asked", "asked"]
 
 _ASKING: Final = frozenset({"if", "whether", "that", "what", "which", "who", "how"})
 OPEN: Final = frozenset({"what", "which", "who", "how"})
 """What asks how something is, and not whether something is so."""
-_THERE: Final = frozenset(
-    {"there", "here", "visible", "present", "still", "in", "on", "at", "near", "by", "under", "behind"}
-)
+_THERE: Final = word_set("there here visible present still in on at near by under behind")
 _WITHIN: Final = frozenset({"in", "inside", "within", "on", "at"})
 _BE: Final = frozenset({"is", "are"})
 _SOMEBODY: Final = frozenset({"anybody", "anyone", "somebody", "someone", "nobody"})

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Literal, get_args
 
 __all__ = [
-    "ACTS", "ACT_TAGS", "DESCRIBED", "FRAMES", "FRAME_TAGS", "HEADS", "MODE_TAGS", "MOVE_TAGS", "OTHER",
-    "ROLES", "ROLE_TAGS", "Act", "Mode", "Move", "Role",
+    "ACTS", "DESCRIBED", "FRAMES", "FRAME_TAGS", "HEADS", "MODES", "MOVES", "OTHER", "ROLES", "ROLE_TAGS",
+    "Act", "Mode", "Move", "Role",
 ]  # fmt: skip
 
 Act = Literal["order", "question", "told", "need", "control", "answer", "social", "edit", "alarm"]
@@ -30,26 +30,18 @@ ROLES: tuple[Role, ...] = get_args(Role)
 FRAMES: tuple[str, ...] = (
     "GO", "TURN", "BRING", "TAKE", "PUT", "GIVE", "FIND", "LOOK", "FOLLOW", "GUIDE", "ON", "OFF", "OPEN",
     "CLOSE", "CONNECT", "DISC", "SAY", "ASK", "WAIT", "PHOTO", "COUNT", "CLEAN", "POUR", "CUT", "MIX",
-    "COOK", "MAKE",
-    "ANSWER", "CHARGE", "PUSH", "DO", "BELOC", "BECAT", "REMEMBER", "FORGET",
+    "COOK", "MAKE", "ANSWER", "CHARGE", "PUSH", "DO", "BELOC", "BECAT", "REMEMBER", "FORGET",
 )  # fmt: skip
 """What may be wanted of somebody, and what may be told."""
 
 OTHER = "OTHER"
-ACT_TAGS: tuple[str, ...] = ACTS
 FRAME_TAGS: tuple[str, ...] = ("O", *(f"{mark}-{frame}" for frame in FRAMES for mark in "BI"), "+")
 ROLE_TAGS: tuple[str, ...] = ("O", *(f"{mark}-{role}" for role in ROLES for mark in "BI"))
-MODE_TAGS: tuple[str, ...] = MODES
-MOVE_TAGS: tuple[str, ...] = MOVES
 DESCRIBED: tuple[str, ...] = (OTHER, *FRAMES, "MOVE", "FACE", "LOCATE")
 """What an action may be: a frame, what GO and TURN are with other roles, or finding where a place is."""
 
 HEADS: dict[str, int] = {
-    "act": len(ACT_TAGS),
-    "frame": len(FRAME_TAGS),
-    "role": len(ROLE_TAGS),
-    "head": 2,
-    "mode": len(MODE_TAGS),
-    "move": len(MOVE_TAGS),
-}
+    "act": len(ACTS), "frame": len(FRAME_TAGS), "role": len(ROLE_TAGS), "head": 2, "mode": len(MODES),
+    "move": len(MOVES),
+}  # fmt: skip
 """Heads over words, and how many tags each has; besides there are the arcs and what a sentence describes."""

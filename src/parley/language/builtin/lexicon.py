@@ -6,19 +6,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
 
-from parley.language.lexicon import load_data
+from parley.language.lexicon import load_data, word_map
 
 __all__ = ["Frame", "Lexicon", "lemmas", "lexicon", "stem", "stems"]
 
-_IRREGULAR = {
-    "took": "take", "taken": "take", "brought": "bring", "went": "go", "gone": "go", "found": "find",
-    "gave": "give",
-    "given": "give", "told": "tell", "said": "say", "got": "get", "made": "make", "lit": "light",
-    "held": "hold",
-    "seen": "see", "saw": "see", "laid": "lay", "kept": "keep", "drove": "drive", "came": "come",
-    "sent": "send",
-    "tying": "tie", "lying": "lie", "does": "do", "did": "do", "has": "have", "goes": "go",
-}  # fmt: skip
+_IRREGULAR = word_map("""took:take taken:take brought:bring went:go gone:go found:find gave:give
+given:give told:tell said:say got:get made:make lit:light held:hold seen:see saw:see laid:lay kept:keep
+drove:drive came:come sent:send tying:tie lying:lie does:do did:do has:have goes:go""")
 
 
 _ENDINGS = (

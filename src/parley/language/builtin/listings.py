@@ -8,6 +8,7 @@ from typing import Final
 
 from parley.language.builtin.decision import Told
 from parley.language.builtin.lexicon import Lexicon, stem, stems
+from parley.language.lexicon import word_set
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
 
@@ -66,10 +67,7 @@ def _found(text: str) -> re.Match[str] | None:
     return next((match for one in _LISTINGS if (match := one.fullmatch(text.rstrip(".! ")))), None)
 
 
-_COUNTS: Final = frozenset({
-    "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "several", "some", "few",
-    "2", "3", "4", "5", "6", "7", "8", "9", "10",
-})  # fmt: skip
+_COUNTS: Final = word_set("two three four five six seven eight nine ten several some few 2 3 4 5 6 7 8 9 10")
 
 
 def _items(text: str, objects: Sequence[MapObject], head: str) -> tuple[MapObject, ...]:

@@ -20,12 +20,11 @@ import numpy as np
 from parley.language.builtin.filling import Filling, Slots, fill, filled_by
 from parley.language.builtin.lexicon import Lexicon, lemmas, stem
 from parley.language.builtin.orders import Clause, clauses_of
-from parley.language.builtin.own_action import OwnAction
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.spans import Parse
 from parley.language.builtin.tagger import Matrix, Tagger
 from parley.language.builtin.tokens import tokenize
-from parley.language.builtin.wishes import Wish
+from parley.language.builtin.wishes import OwnAction, Wish
 from parley.language.dialogue.facts import asks_to_keep
 from parley.messages.status import ActionInfo
 from parley.umrf.kinds import parameters_of, words_of_name

@@ -8,9 +8,9 @@ from collections.abc import Callable
 from parley.language.builtin.amounts import in_unit
 from parley.language.builtin.decision import Ask, Deed
 from parley.language.builtin.filling import Fill
-from parley.language.builtin.own_action import OwnAction
 from parley.language.builtin.skills import Skill
 from parley.language.builtin.spans import Filler
+from parley.language.builtin.wishes import OwnAction
 from parley.messages.status import Kind
 
 __all__ = ["Grounds", "owned"]

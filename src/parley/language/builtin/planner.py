@@ -15,7 +15,7 @@ from parley.language.builtin.reading import Reading
 from parley.language.builtin.spans import Filler
 from parley.language.builtin.structure import If, Node, Orders, Part
 from parley.language.builtin.wishes import Wish
-from parley.language.dialogue.mentions import named
+from parley.language.dialogue.map_words import named
 
 __all__ = ["NO_DEED", "Planner", "contradicted", "orders_of"]
 

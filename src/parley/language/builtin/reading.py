@@ -12,6 +12,7 @@ from parley.language.builtin.lexicon import Lexicon, lemmas
 from parley.language.builtin.retyping import PLACING, looks_here, retyped
 from parley.language.builtin.spans import Filler, Parse, Span, Verb
 from parley.language.builtin.wishes import Wish, Witness
+from parley.language.lexicon import word_set
 from parley.umrf.kinds import is_word_for
 
 __all__ = ["Reading", "read"]
@@ -504,9 +505,7 @@ def _joined(wishes: list[Wish]) -> list[Wish]:
 
 
 _MANY = ("T", "G", "L")
-_REPEATED = frozenset(
-    {"GO", "LOOK", "FIND", "ON", "OFF", "OPEN", "CLOSE", "COUNT", "CLEAN", "TAKE", "BRING", "DO"}
-)
+_REPEATED = word_set("GO LOOK FIND ON OFF OPEN CLOSE COUNT CLEAN TAKE BRING DO")
 
 
 def _spread(wish: Wish) -> list[Wish]:

@@ -16,16 +16,16 @@ from parley.language.builtin.lexicon import Lexicon, stem
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.reply import said as words_for
 from parley.language.builtin.reply import to_chat
-from parley.language.builtin.saying import with_article
+from parley.language.builtin.saying import listed, with_article
 from parley.language.builtin.things import head_of, link, noun_phrase
 from parley.language.builtin.tokens import tokenize
-from parley.language.dialogue.answers import differences, listed
-from parley.language.dialogue.mentions import named_alone
-from parley.language.dialogue.places import rooms
+from parley.language.dialogue.answers import differences
+from parley.language.dialogue.map_words import named_alone, rooms
 from parley.language.dialogue.questions import asks, plain, question_of
 from parley.language.dialogue.replies import chosen, names_deed, words_of
 from parley.language.dialogue.settling import Settled, parts_of, settled
 from parley.language.dialogue.standing import read_rule
+from parley.language.lexicon import word_set
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
@@ -326,11 +326,8 @@ class Repairer:
         return ChatAction(success=False, message_response=f"{lead} {question}", choices=choices)
 
 
-_NAMING: Final = frozenset({
-    "i", "mean", "meant", "is", "it", "he", "she", "they", "take", "use", "try", "go", "for", "drive", "yes",
-    "no", "sorry", "please", "instead", "rather", "choose", "pick", "look", "check", "then", "maybe", "think",
-    "should", "be",
-})  # fmt: skip
+_NAMING: Final = word_set("""i mean meant is it he she they take use try go for drive yes no sorry please
+instead rather choose pick look check then maybe think should be""")
 """What may stand with the name of a thing in an answer that only names it."""
 
 
@@ -383,9 +380,7 @@ def _as_message(situation: ErrorSituation, words: str) -> Situation:
     )
 
 
-_GOING: Final = frozenset(
-    {"go", "drive", "come", "move", "over", "to", "the", "please", "now", "then", "just"}
-)
+_GOING: Final = word_set("go drive come move over to the please now then just")
 
 
 def _goes_there(situation: ErrorSituation, words: Sequence[str], choice: str) -> bool:

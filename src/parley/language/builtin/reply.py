@@ -19,6 +19,7 @@ from parley.language.builtin.decision import (
     Told,
 )  # fmt: skip
 from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.saying import listed
 from parley.language.builtin.structure import Part
 from parley.language.builtin.wishes import Wish
 from parley.language.dialogue.facts import kept_in_mind
@@ -132,23 +133,13 @@ def said(deed: Deed, lexicon: Lexicon) -> str:
     return re.sub(r" +", " ", re.sub(r"\{(\w)\}", held, re.sub(r"\[([^\]]*)\]", kept, text))).strip()
 
 
-def _listed(parts: Sequence[str]) -> str:
-    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and then {parts[-1]}"
-
-
 def _plan(deeds: Sequence[Deed], lexicon: Lexicon) -> str:
     """Deeds in words, with what they depend on: "check whether ...; if so, go to ...; if not, wait"."""
     parts: list[str] = []
     for (check, holds), group in itertools.groupby(deeds, lambda deed: (id(deed.check), deed.holds)):
-        listed = _listed([said(deed, lexicon) for deed in group])
-        plain = check == id(None)
-        parts.append(
-            listed
-            if plain and not parts
-            else f"then {listed}"
-            if plain
-            else f"if {'so' if holds else 'not'}, {listed}"
-        )
+        told = listed([said(deed, lexicon) for deed in group], "and then")
+        lead = f"if {'so' if holds else 'not'}, " if check != id(None) else "then " if parts else ""
+        parts.append(f"{lead}{told}")
     return "; ".join(parts)
 
 

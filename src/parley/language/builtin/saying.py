@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-__all__ = ["as_said", "counted", "which_one", "with_article"]
+from parley.language.lexicon import word_set
+
+__all__ = ["as_said", "counted", "listed", "which_one", "with_article"]
 
 
 def as_said(words: str, text: str) -> str:
@@ -19,10 +21,15 @@ def counted(number: int, what: str) -> str:
     return f"{number} {what}" if number == 1 else f"{number} {what}s"
 
 
+def listed(parts: Sequence[str], last: str = "and") -> str:
+    """Several parts of a sentence as one."""
+    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} {last} {parts[-1]}"
+
+
 def which_one(names: Sequence[str]) -> str:
     """The question which of several things is meant."""
     named = [with_article(name) for name in names]
-    return f"Which one do you mean: {', '.join(named[:-1])} or {named[-1]}?"
+    return f"Which one do you mean: {listed(named, 'or')}?"
 
 
 def with_article(text: str) -> str:
@@ -33,8 +40,5 @@ def with_article(text: str) -> str:
     return text if bare else f"the {text}"
 
 
-_OWN = frozenset(
-    {"the", "a", "an", "my", "your", "his", "her", "our", "their", "this", "that", "these", "those",
-    "you", "it", "all", "everyone", "everybody", "what", "whether", "if", "how", "which", "who", "where",
-    "when", "why"}
-)  # fmt: skip
+_OWN = word_set("""the a an my your his her our their this that these those you it all everyone everybody
+what whether if how which who where when why""")

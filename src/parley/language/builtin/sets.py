@@ -13,6 +13,7 @@ from parley.language.builtin.amounts import amount_of
 from parley.language.builtin.lexicon import Lexicon, stem, stems
 from parley.language.builtin.saying import which_one
 from parley.language.builtin.things import head_of, link, main_word
+from parley.language.lexicon import word_set
 from parley.world.object_map import MapObject
 
 __all__ = ["Group", "apart", "group", "kinds", "number_of", "without"]
@@ -21,9 +22,7 @@ _QUANTIFIERS = frozenset({"all", "every", "each", "both", "whole", "single"})
 _LINKING = frozenset({",", "and", "&", "plus"})
 _RANGES = frozenset({"to", "through", "thru", "till", "until", "-", "–"})
 _ORDER = {"first": 0, "second": 1, "third": 2, "fourth": 3, "fifth": 4, "last": -1}
-_LOOSE = frozenset(
-    {"of", "the", "numbered", "number", "numbers", "them", "my", "our", "those", "these", "your", "too"}
-)
+_LOOSE = word_set("of the numbered number numbers them my our those these your too")
 
 
 @dataclass(frozen=True, slots=True)

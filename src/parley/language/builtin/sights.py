@@ -14,7 +14,8 @@ from parley.language.builtin.retyping import retyped
 from parley.language.builtin.spans import Filler
 from parley.language.builtin.tokens import Token, tokenize
 from parley.language.builtin.wishes import Wish
-from parley.language.dialogue.mentions import Named
+from parley.language.dialogue.map_words import Named
+from parley.language.lexicon import word_set
 
 __all__ = ["sight_asked_for"]
 
@@ -106,10 +107,8 @@ def _is_extreme(word: str) -> bool:
     return len(word) > 5 and word.endswith("est") and word not in _NOT_EXTREME
 
 
-_NOT_EXTREME: Final = frozenset({
-    "nearest", "closest", "furthest", "farthest", "latest", "forest", "request", "interest", "harvest",
-    "contest", "honest", "modest", "priest", "arrest", "digest", "invest", "protest", "suggest", "earliest",
-})  # fmt: skip
+_NOT_EXTREME: Final = word_set("""nearest closest furthest farthest latest forest request interest harvest
+contest honest modest priest arrest digest invest protest suggest earliest""")
 
 
 def _only_leads(words: Sequence[str], others: Set[str], lexicon: Lexicon) -> bool:

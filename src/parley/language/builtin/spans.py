@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from parley.language.builtin.labels import ACT_TAGS, FRAME_TAGS, MODE_TAGS, MOVE_TAGS, ROLE_TAGS
+from parley.language.builtin.labels import ACTS, FRAME_TAGS, MODES, MOVES, ROLE_TAGS
 from parley.language.builtin.tagger import Matrix, Scores
 from parley.language.builtin.tokens import Token
 
@@ -101,10 +101,10 @@ def parse(tokens: tuple[Token, ...], scores: Scores) -> Parse:
     tokens = tokens[:size]
     frames = _best(scores.frame[:size], FRAME_TAGS)
     roles = _best(scores.role[:size], ROLE_TAGS)
-    acts = tuple(ACT_TAGS[int(row.argmax())] for row in scores.act[:size])
+    acts = tuple(ACTS[int(row.argmax())] for row in scores.act[:size])
     shares = tuple(float(min(scores.frame[at, frames[at]], scores.role[at, roles[at]])) for at in range(size))
     verbs = _verbs(frames, scores)
-    moves = tuple(MOVE_TAGS[int(row.argmax())] for row in scores.move[:size])
+    moves = tuple(MOVES[int(row.argmax())] for row in scores.move[:size])
     return Parse(tokens, acts, verbs, _spans(tokens, roles, scores, verbs), shares, moves)
 
 
@@ -153,7 +153,7 @@ def _verbs(path: list[int], scores: Scores) -> tuple[Verb, ...]:
     verbs = []
     for number, (frame, start, end) in enumerate(pieces):
         share = float(min(scores.frame[at, path[at]] for at in range(start, end)))
-        mode = MODE_TAGS[int(scores.mode[start].argmax())]
+        mode = MODES[int(scores.mode[start].argmax())]
         behind = pieces[number + 1][1] if number + 1 < len(pieces) else len(path)
         mine = tuple(at for at in beside if end <= at < behind)
         verbs.append(Verb(frame, start, end, share, mode == "negated", mode == "otherwise", mine, mode))

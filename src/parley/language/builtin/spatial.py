@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from parley.language.builtin.lexicon import Lexicon, stem, stems
 from parley.language.builtin.sets import kinds
 from parley.language.builtin.things import link
+from parley.language.lexicon import word_set
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
@@ -31,9 +32,7 @@ _MOST = {
     "northernmost": "north", "southernmost": "south",
 }  # fmt: skip
 _AXES = {"east": (1.0, 0.0), "west": (-1.0, 0.0), "north": (0.0, 1.0), "south": (0.0, -1.0)}
-_FILLING = frozenset(
-    {"that", "is", "'s", "which", "are", "the", "stands", "standing", "a", "one", "there", "lying"}
-)
+_FILLING = word_set("that is 's which are the stands standing a one there lying")
 _LEADING = frozenset({"by", "near", "next", "of", "in", "at", "on", "beside", "under", "behind"})
 _BESIDE_M = 2.0
 _MARGIN = 1.15

@@ -13,18 +13,15 @@ from parley.language.builtin.grounding import Grounder, Value, is_somebody
 from parley.language.builtin.lexicon import stem
 from parley.language.builtin.skills import Skill
 from parley.language.builtin.wishes import Wish
+from parley.language.lexicon import word_set
 from parley.umrf.kinds import words_of_name
 
 __all__ = ["followed", "spoken"]
 
-_LITERAL: Final = frozenset(
-    {"say", "tell", "announce", "let", "inform", "whisper", "shout", "speak", "wish", "remind"}
-)
+_LITERAL: Final = word_set("say tell announce let inform whisper shout speak wish remind")
 """Verbs behind which the words stand as they are to be said; "read the sign" is no such."""
 _GREETING: Final = frozenset({"greet", "welcome"})
-_ELSEWHERE: Final = frozenset(
-    {"in", "on", "at", "by", "near", "behind", "under", "beside", "outside", "inside"}
-)
+_ELSEWHERE: Final = word_set("in on at by near behind under beside outside inside")
 """Prepositions that say where somebody is, and not who."""
 _SENTENCE: Final = 3
 """So many words a sentence has that begins with "the"."""

@@ -11,6 +11,7 @@ from rapidfuzz.distance import OSA
 
 from parley.language.builtin.amounts import is_compass
 from parley.language.builtin.lexicon import Lexicon, stem, stems
+from parley.language.lexicon import word_set
 from parley.world.object_map import MapObject
 
 __all__ = ["Mention", "head_of", "link", "main_word", "noun_phrase"]
@@ -223,10 +224,7 @@ def _same_root(one: str, other: str) -> bool:
     return one == other or (len(one) > 4 and _ROOT.sub("", one) == _ROOT.sub("", other))
 
 
-_PLACING = frozenset({
-    "in", "of", "by", "at", "near", "next", "on", "with", "beside", "behind", "under",
-    "above", "between", "opposite",
-})  # fmt: skip
+_PLACING = word_set("in of by at near next on with beside behind under above between opposite")
 
 
 def main_word(known: tuple[str, ...]) -> str:

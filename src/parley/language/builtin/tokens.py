@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from parley.language.lexicon import word_set
 from parley.umrf.kinds import is_word_for
 
 __all__ = ["TITLES", "Token", "point_of", "spoken", "tokenize"]
@@ -89,8 +90,4 @@ def spoken(tokens: Sequence[Token]) -> tuple[Token, ...]:
     return tuple(kept)
 
 
-_SHORT = frozenset({
-    "on", "in", "to", "the", "at", "it", "so", "no", "be", "go", "up", "do", "an", "and", "for", "off", "all",
-    "us",
-    "we", "if", "or", "by", "my", "me", "of", "is", "as",
-})  # fmt: skip
+_SHORT = word_set("on in to the at it so no be go up do an and for off all us we if or by my me of is as")

@@ -9,18 +9,18 @@ from typing import Final
 
 from parley.language.base import Situation
 from parley.language.builtin.lexicon import lexicon, stem
-from parley.language.builtin.saying import counted, with_article
+from parley.language.builtin.saying import counted, listed, with_article
 from parley.language.builtin.tokens import tokenize
-from parley.language.dialogue.mentions import named
-from parley.language.dialogue.places import distance_m, in_room, lies, room_of, rooms, whereabouts
+from parley.language.dialogue.map_words import distance_m, in_room, lies, named, room_of, rooms, whereabouts
 from parley.language.dialogue.questions import Question
 from parley.language.dialogue.state import Deed, Dialogue, Order
+from parley.language.lexicon import word_set
 from parley.messages.status import ActionInfo, PlanStep
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 from parley.world.whereabouts import called
 
-__all__ = ["answer", "deed_words", "differences", "listed", "step_words"]
+__all__ = ["answer", "deed_words", "differences", "step_words"]
 
 _OPEN: Final = ("queued", "running", "waiting", "paused")
 _MOST: Final = 5
@@ -40,11 +40,6 @@ def answer(question: Question, situation: Situation) -> str:
 
 
 # -- words --------------------------------------------------------------------------------------------
-
-
-def listed(parts: Sequence[str], last: str = "and") -> str:
-    """Several parts of a sentence as one."""
-    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} {last} {parts[-1]}"
 
 
 def step_words(label: str) -> str:
@@ -225,9 +220,7 @@ def _stems(text: str) -> set[str]:
     return {stem(word) for word in re.findall(r"[^\W_]+", text.lower())} - (_SMALL - letter)
 
 
-_SMALL: Final = frozenset(
-    {"the", "a", "an", "to", "in", "at", "of", "my", "your", "any", "some", "there", "there's"}
-)
+_SMALL: Final = word_set("the a an to in at of my your any some there there's")
 
 
 def _why_stopped(situation: Situation, about: str) -> str:

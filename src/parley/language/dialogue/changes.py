@@ -13,11 +13,12 @@ from dataclasses import dataclass, replace
 from typing import Final, Literal
 
 from parley.language.base import Situation
+from parley.language.builtin.amounts import ORDINALS
 from parley.language.builtin.lexicon import Lexicon
-from parley.language.builtin.saying import which_one
+from parley.language.builtin.saying import listed, which_one
 from parley.language.builtin.tokens import Token
-from parley.language.dialogue.answers import answer, listed, step_words
-from parley.language.dialogue.mentions import Named, named
+from parley.language.dialogue.answers import answer, step_words
+from parley.language.dialogue.map_words import Named, named
 from parley.language.dialogue.questions import Question
 from parley.messages.chat import ActionCall
 from parley.messages.status import PlanStep
@@ -30,9 +31,6 @@ __all__ = [
 ]  # fmt: skip
 
 _OPEN: Final = ("queued", "running", "waiting", "paused", "failed")
-_ORDINALS: Final = frozenset({
-    "first", "1st", "second", "2nd", "third", "3rd", "fourth", "4th", "fifth", "5th", "last", "final", "next",
-})  # fmt: skip
 _AGAINST: Final = re.compile(
     r"\b(?:not|no|without|skip(?:ping)?|leave(?: \w+)? out|leaving out|drop|omit|forget(?: about)?|except|"
     r"but not|instead of|rather than|cancel|remove|delete|scratch|never mind|don't(?: \w+){0,3}|"
@@ -232,7 +230,7 @@ def _is_bare(tokens: Sequence[Token], names: Sequence[Named], lexicon: Lexicon) 
     """Whether there is nothing in a message but what is named and the words of changing a plan."""
     taken = {at for name in names for at in range(name.start, name.end)}
     small = lexicon.classes["small"] | lexicon.classes["logic"] | lexicon.classes["prepositions"]
-    small = small | lexicon.classes["determiners"] | lexicon.classes["changing"] | _ORDINALS
+    small = small | lexicon.classes["determiners"] | lexicon.classes["changing"] | {*ORDINALS, "next"}
     return all(at in taken or not token.is_word or token.low in small for at, token in enumerate(tokens))
 
 

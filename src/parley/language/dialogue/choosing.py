@@ -16,6 +16,7 @@ from parley.language.builtin.spatial import NEAREST, picked
 from parley.language.builtin.tokens import Token
 from parley.language.dialogue.replies import chosen, names_deed
 from parley.language.dialogue.speaker import Again
+from parley.language.lexicon import word_set
 
 __all__ = ["choice_of", "in_order", "tells", "together"]
 
@@ -23,9 +24,7 @@ _ANSWER: Final = 10
 _ORDER: Final = frozenset({"first", "before", "then", "afterwards", "later", "also", "next"})
 _COUNTS: Final = {"both": 2, "two": 2, "three": 3, "four": 4, "five": 5}
 _ALL: Final = frozenset({*_COUNTS, "all", "each", "every", "everything"})
-_SMALL: Final = frozenset(
-    {"of", "them", "the", "these", "those", "please", "yes", "one", "ones", "in", "at", "i"}
-)
+_SMALL: Final = word_set("of them the these those please yes one ones in at i")
 _SMALL_VERBS: Final = frozenset({"mean", "meant"})
 
 
@@ -66,9 +65,7 @@ def tells(words: Sequence[str]) -> bool:
     return at > 0 and words[at - 1] not in _LEADING_TO
 
 
-_LEADING_TO: Final = frozenset(
-    {"it", "that", "this", "which", "who", "where", "mean", "meant", "there", "whichever"}
-)
+_LEADING_TO: Final = word_set("it that this which who where mean meant there whichever")
 
 
 def _by_place(words: Sequence[str], choices: Sequence[str], situation: Situation) -> str | None:

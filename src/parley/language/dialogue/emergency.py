@@ -13,8 +13,8 @@ from parley.language.builtin.heard import Heard
 from parley.language.builtin.lexicon import Lexicon, lemmas
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.tokens import Token, tokenize
-from parley.language.dialogue.mentions import named, named_alone
-from parley.language.dialogue.places import rooms
+from parley.language.dialogue.map_words import named, named_alone, rooms
+from parley.language.lexicon import word_set
 
 __all__ = ["NO_ALARM", "emergency", "is_emergency"]
 
@@ -30,9 +30,7 @@ _PIECE: Final = re.compile(
     re.IGNORECASE | re.DOTALL,
 )
 _TOLD: Final = frozenset({"told", "need", "alarm", "social"})
-_BINDING: Final = frozenset(
-    {"if", "unless", "until", "till", "when", "while", "except", "otherwise", "else", "or", "before", "after"}
-)
+_BINDING: Final = word_set("if unless until till when while except otherwise else or before after")
 """Words on which an order may depend: what holds one is not left out of it."""
 _LONGEST: Final = 60
 """So many words at most are looked through for an order beside what alarms."""
@@ -104,9 +102,7 @@ def _does_something(tokens: Sequence[Token], lexicon: Lexicon) -> bool:
     return bool(deeds) and low[0] in ("somebody", "someone") and not _danger(" ".join(low), lexicon)
 
 
-_HELPING_WORDS: Final = frozenset(
-    {"else", "has", "have", "had", "will", "is", "just", "already", "must", "again", "going", "to"}
-)
+_HELPING_WORDS: Final = word_set("else has have had will is just already must again going to")
 _LOST: Final = re.compile(
     r"(?P<what>\b(?:can(?:'t|’t|not| not) find|(?:have|['’]ve) lost|misplaced|looking for)\b.*?)"
     r"[\s,;.!?]+(?:so |and )?(?:can|could|would|will) (?:you|u) (?:please )?help\b.*$",

@@ -13,8 +13,9 @@ from parley.language.builtin.decision import Told
 from parley.language.builtin.heard import Heard
 from parley.language.builtin.lexicon import stem
 from parley.language.builtin.reading import Reading
-from parley.language.dialogue.mentions import named
+from parley.language.dialogue.map_words import named
 from parley.language.dialogue.questions import asks
+from parley.language.lexicon import word_set
 from parley.messages.memory import MemoryEntry
 
 __all__ = [
@@ -24,13 +25,9 @@ __all__ = [
 
 _PRONOUNS: Final = frozenset({"he", "she", "they", "it", "this", "that", "these", "those", "they're", "it's"})
 _POINTING: Final = frozenset({"this", "that", "these", "those"})
-_FIRST: Final = frozenset(
-    {"i", "i'm", "you", "we", "you're", "we're", "let", "let's", "who", "what", "there", "here"}
-)
+_FIRST: Final = word_set("i i'm you we you're we're let let's who what there here")
 _AT: Final = {"to": "at", "into": "in", "onto": "on", "towards": "at", "over": "at"}
-_WHERE: Final = frozenset(
-    {"to", "into", "onto", "at", "on", "in", "by", "near", "beside", "behind", "under", "next", "inside"}
-)
+_WHERE: Final = word_set("to into onto at on in by near beside behind under next inside")
 _TURNS: Final = 8
 _BEING: Final = re.compile(
     r"\b(?:is|are|was|were|has|have|had|'s|likes?|needs?|wants?|hates?|prefers?|eats?|drinks?|takes?|"

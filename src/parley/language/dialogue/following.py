@@ -8,28 +8,22 @@ from typing import Final
 
 from parley.language.base import Situation
 from parley.language.builtin.lexicon import Lexicon
-from parley.language.builtin.saying import which_one
+from parley.language.builtin.saying import listed, which_one
 from parley.language.builtin.spatial import beside
 from parley.language.builtin.tokens import Token
-from parley.language.dialogue.answers import listed
 from parley.language.dialogue.changes import Change, Visit, is_against, moved, visits_of
-from parley.language.dialogue.mentions import Named, named, same_kind
+from parley.language.dialogue.map_words import Named, named, same_kind
 from parley.language.dialogue.state import Order
+from parley.language.lexicon import word_set
 from parley.messages.status import PlanStep
 from parley.world.object_map import MapObject
 from parley.world.whereabouts import called
 
 __all__ = ["followed", "in_turn"]
 
-_SMALL: Final = frozenset(
-    {
-        "and", "also", "too", "now", "then", "next", "the", "as", "well", "please", "same", "for", "with",
-        "likewise", "ditto", "how", "about", "in", "at", "to", "do", "it", "that", "thing", "again", "once",
-        "more", "but", "no", "not", "i", "mean", "meant", "sorry", "oh", "just", "instead", "actually",
-        "rather", "wait", "this", "time", "after", "afterwards", "finally", "one", "other", "okay", "ok", "a",
-        "try", "of", "near", "beside", "by", "close",
-    }
-)  # fmt: skip
+_SMALL: Final = word_set("""and also too now then next the as well please same for with likewise ditto how
+about in at to do it that thing again once more but no not i mean meant sorry oh just instead actually
+rather wait this time after afterwards finally one other okay ok a try of near beside by close""")
 _LINKING: Final = re.compile(
     r"\b(?:and|also|too|now|then|next|as well|same|likewise|ditto|how about|again|once more|after that|"
     r"no|not|i meant?|sorry|instead|rather|other)\b"

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from parley.language.builtin.lexicon import lemmas
+from parley.language.lexicon import word_set
 
 __all__ = ["PROMISE", "due", "put_off"]
 
@@ -23,14 +24,9 @@ _BEHIND: Final = re.compile(
 _OWN: Final = re.compile(
     r"^(?:you|that|this|it|everything|all|done|finished|ready|there is|there are|there's)\b", re.IGNORECASE
 )
-_SMALL: Final = frozenset({
-    "the", "a", "an", "is", "are", "was", "has", "have", "had", "be", "been", "to", "at", "in", "on", "of",
-    "now", "just", "my", "our", "your", "his", "her", "and", "so", "ok", "here", "there", "will", "does",
-    "do", "did", "by", "already",
-})  # fmt: skip
-_NOT: Final = frozenset(
-    {"not", "no", "never", "isn't", "hasn't", "yet", "won't", "doesn't", "aren't", "didn't"}
-)
+_SMALL: Final = word_set("""the a an is are was has have had be been to at in on of now just my our your his
+her and so ok here there will does do did by already""")
+_NOT: Final = word_set("not no never isn't hasn't yet won't doesn't aren't didn't")
 
 
 def put_off(message: str) -> tuple[str, str] | None:

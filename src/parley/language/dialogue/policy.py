@@ -22,28 +22,19 @@ from parley.language.builtin.reply import said as words_for
 from parley.language.builtin.saying import which_one
 from parley.language.builtin.structure import Part
 from parley.language.builtin.tokens import Token, tokenize
+from parley.language.dialogue import facts
 from parley.language.dialogue.answers import answer, differences
 from parley.language.dialogue.changes import Change, before_all, change_of, reordered, texts_of, visits
 from parley.language.dialogue.choosing import choice_of, in_order, tells
 from parley.language.dialogue.emergency import NO_ALARM, emergency, is_emergency
-from parley.language.dialogue.facts import (
-    NAME,
-    forgotten,
-    is_report,
-    is_wish,
-    moved_fact,
-    other_fact,
-    taken_back,
-    worth_keeping,
-)  # fmt: skip
 from parley.language.dialogue.following import followed
 from parley.language.dialogue.later import PROMISE, due, put_off
-from parley.language.dialogue.mentions import Named, named, named_alone
-from parley.language.dialogue.places import in_room, rooms
+from parley.language.dialogue.map_words import Named, in_room, named, named_alone, rooms
 from parley.language.dialogue.questions import plain, question_of
 from parley.language.dialogue.rearranging import rearranged
 from parley.language.dialogue.replies import is_thinking
 from parley.language.dialogue.speaker import Again, answered_place, told_place
+from parley.language.lexicon import word_set
 from parley.messages.plain import in_words
 from parley.umrf.kinds import words_of_name
 from parley.world.object_map import MapObject
@@ -90,13 +81,13 @@ def beforehand(heard: Heard) -> Decision | None:
     here = told_place(situation, lexicon)
     if here is not None:
         return here
-    moved = moved_fact(heard)
+    moved = facts.moved_fact(heard)
     return Remember((moved,)) if moved is not None else _of_whom(last, heard)
 
 
 def _of_whom(last: str, heard: Heard) -> Remember | None:
     """What is told of "she", where it was told just before of somebody by name."""
-    said, name = _OF_ONE.match(heard.situation.message), NAME.match(last)
+    said, name = _OF_ONE.match(heard.situation.message), facts.NAME.match(last)
     told = said and name and heard.reader(last).acts & {"told", "need"}
     made = heard.again(f"{name[0].strip()}{said['rest']}") if said and name and told else None
     return made if isinstance(made, Remember) else None
@@ -132,7 +123,7 @@ def _about_itself(heard: Heard) -> Decision | None:
         return Answer(f"{differences(asked.choices, situation.objects)} Which one do you mean?")
     if question is not None and (said := answer(question, situation)):
         return Answer(said)
-    lost = taken_back(situation, bare, heard.told_in) or forgotten(situation, bare)
+    lost = facts.taken_back(situation, bare, heard.told_in) or facts.forgotten(situation, bare)
     if lost and bare.startswith("forget ") and any(entry.way == "seen" for entry in lost):
         named = re.fullmatch(r"forget (?!about |all |what |that |where |everything )(.+)", bare)
         if named is not None:  # mostly that is said of what is to be done
@@ -321,7 +312,7 @@ def _of_what_is_told(made: Decision, heard: Heard) -> Decision:
         return asked
     if isinstance(made, Remember):
         return made
-    fact = other_fact(situation, reading, heard.bare)
+    fact = facts.other_fact(situation, reading, heard.bare)
     return Remember((fact,)) if fact is not None and not _is_robots_work(fact.text, situation) else made
 
 
@@ -403,10 +394,10 @@ def _handless(situation: Situation, reading: Reading) -> str:
 def no_facts(told: tuple[Told, ...], situation: Situation, *, beside: bool = False) -> tuple[Told, ...]:
     """The facts of a message, unless it is a stop, an order to go on, a question or an answer."""
     bare = plain(tokenize(situation.message), (situation.robot,))
-    kept = tuple(fact for fact in told if fact.is_rule or not is_wish(fact.text))
+    kept = tuple(fact for fact in told if fact.is_rule or not facts.is_wish(fact.text))
     kept = tuple(fact for fact in kept if fact.is_rule or not _is_robots_work(fact.text, situation))
-    kept = () if is_report(situation.message) else kept
-    return kept if kept and worth_keeping(situation, bare, beside=beside) else ()
+    kept = () if facts.is_report(situation.message) else kept
+    return kept if kept and facts.worth_keeping(situation, bare, beside=beside) else ()
 
 
 def _is_robots_work(text: str, situation: Situation) -> bool:
@@ -472,9 +463,7 @@ def only_names(
     return all(word in small or word in called or not word[0].isalnum() for word in rest)
 
 
-_LEADING_ON: Final = frozenset(
-    {"and", "then", "now", "next", "also", "ok", "okay", "great", "good", "fine", "thanks", "to", "first"}
-)
+_LEADING_ON: Final = word_set("and then now next also ok okay great good fine thanks to first")
 
 
 # -- what was spoken of -------------------------------------------------------------------------------

@@ -33,7 +33,6 @@ class Shape:
 
     topic: str
     patterns: tuple[re.Pattern[str], ...]
-    tests: tuple[str, ...]
 
 
 _LEADS: Final = re.compile(
@@ -92,12 +91,9 @@ def shapes() -> tuple[Shape, ...]:
     read = {**load_data("questions")}
     parts: dict[str, str] = read.pop("parts")
     return tuple(
-        Shape(
-            topic,
-            tuple(re.compile(_filled(pattern, parts)) for pattern in entry["shapes"].splitlines()),
-            tuple(entry["tests"]),
-        )
-        for topic, entry in read.items()
+        Shape(topic, tuple(re.compile(_filled(pattern, parts)) for pattern in lines.splitlines()))
+        for topic, lines in read.items()
+        if topic != "tests"
     )
 
 

@@ -12,11 +12,12 @@ from functools import cache
 from typing import Final
 
 from parley.language.base import Situation
+from parley.language.builtin.amounts import ORDINALS
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.saying import counted
 from parley.language.builtin.tokens import Token
 from parley.language.dialogue.changes import Change, Visit, moved, reordered, visits
-from parley.language.dialogue.mentions import Named, named
+from parley.language.dialogue.map_words import Named, named
 from parley.language.lexicon import load_data
 
 __all__ = ["rearranged"]
@@ -30,10 +31,7 @@ _SLOT: Final = (
 ).replace(
     "ORD", r"(?:the )?(?:very )?(?:first|1st|second|2nd|third|3rd|fourth|4th|fifth|5th|last|next|final)"
 )
-_NUMBERS: Final = {
-    "first": 0, "1st": 0, "second": 1, "2nd": 1, "next": 1, "third": 2, "3rd": 2, "fourth": 3, "4th": 3,
-    "fifth": 4, "5th": 4, "last": -1, "final": -1,
-}  # fmt: skip
+_NUMBERS: Final = ORDINALS | {"next": 1}
 _COUNTS: Final = {"two": 2, "three": 3}
 _DO: Final = (
     r"(?:do|put|take|go to|visit|make|move|bring|leave|keep|have|check|squeeze in|squeeze|fit in|fit|add)?"

@@ -11,22 +11,19 @@ from parley.gate.assent import assent_of, begins_with_no
 from parley.gate.control import control_of
 from parley.gate.stop_words import calls_to_stop
 from parley.language.base import ReplyReading
+from parley.language.builtin.amounts import ORDINALS
 from parley.language.builtin.lexicon import stem
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.tokens import tokenize
 from parley.language.builtin.wishes import Wish
 from parley.language.dialogue.questions import asks, plain
+from parley.language.lexicon import word_set
 
 __all__ = ["chosen", "is_done", "is_thinking", "names_deed", "read_reply", "words_of"]
 
-_ORDINALS: Final = {
-    "first": 0, "second": 1, "third": 2, "fourth": 3, "one": 0, "two": 1, "three": 2,
-    "last": -1, "1": 0, "2": 1, "3": 2, "4": 3,
-}  # fmt: skip
-_NOT: Final = frozenset(
-    {"not", "no", "don't", "dont", "never", "can't", "cannot", "didn't", "haven't", "isn't", "nope", "nah",
-     "without", "neither", "none", "hasn't", "won't", "aren't", "couldn't"}
-)  # fmt: skip
+_ORDINALS: Final = ORDINALS | {"one": 0, "two": 1, "three": 2, "1": 0, "2": 1, "3": 2, "4": 3}
+_NOT: Final = word_set("""not no don't dont never can't cannot didn't haven't isn't nope nah without neither
+none hasn't won't aren't couldn't""")
 _DONE: Final = re.compile(
     r"(?!(?:is|are|was|did|has|have|can|do) (?:you|it|i|he|she|they|we|that|the)\b)"
     r"(?:(?:(?:there|here) (?:you (?:go|are)|we go)|"

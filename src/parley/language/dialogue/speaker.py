@@ -12,9 +12,9 @@ from parley.language.builtin.decision import Ask, Decision, Do, Remember, Told
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.saying import which_one
 from parley.language.builtin.tokens import Token, tokenize
-from parley.language.dialogue.mentions import named
-from parley.language.dialogue.places import rooms
+from parley.language.dialogue.map_words import named, rooms
 from parley.language.dialogue.replies import chosen
+from parley.language.lexicon import word_set
 from parley.messages.memory import MemoryEntry
 
 __all__ = ["answered_place", "name_of", "told_place"]
@@ -35,9 +35,7 @@ _ANSWER: Final = re.compile(
     r"sitting|standing)\W+)*"
     rf"(?:{_AT})?(?P<where>.+)"
 )
-_DETERMINERS: Final = frozenset(
-    {"the", "a", "an", "my", "our", "your", "his", "her", "their", "this", "that", "please", "now"}
-)
+_DETERMINERS: Final = word_set("the a an my our your his her their this that please now")
 
 
 class Again(Protocol):
