@@ -441,11 +441,32 @@ def test_what_comes_first_is_said_beside_an_order(said: str, where: list[str] | 
         ("remember the driver comes at five", "I will remember that the driver comes at five."),
         ("great, remember it's packed", "I did not understand that."),
         ("quick, is bay 2 free?", "Shall I go and look?"),
+        ("take a picture of the torn bay", "“torn bay” here. Which one do you mean: bay 1, bay 2 or bay A?"),
+        ("check bay 1 and bay 2, and stop if you see a leak", "I will remember: stop if you see a leak."),
+        ("go to bay 1. If you see a leak, tell me", "I will remember: If you see a leak, tell me."),
+        ("go to bay 1 and tell me when you are there", "I will go to bay 1."),
+        ("tell me when you are done", "I tell you as soon as I am done."),
+        ("are you there?", "Yes, I hear you."),
+        ("go to bay 1 and in the end to bay A", "I will go to bay 1 and then go to bay A."),
+        ("turn a little to the left", "30 degrees"),
+        ("be quiet around him", "I do not understand “quiet” in this."),
     ],
 )
 def test_what_was_said_off_script_is_answered(said: str, told: str) -> None:
     made = ENGINE.decide(situation(said, objects=SHELVES, catalogue=SHIPPED))
     assert told in to_chat(made, lexicon()).message_response
+
+
+def test_what_is_lost_is_not_the_place_where_it_was() -> None:
+    past = (Turn("operator", "my wallet is gone, I had it somewhere near bay 2"),)
+    made = ENGINE.decide(situation("go look for it", objects=SHELVES, catalogue=SHIPPED, history=past))
+    assert isinstance(made, Ask)
+
+
+def test_what_was_ordered_last_is_told() -> None:
+    dialogue = Dialogue(orders=(Order("go to bay 1", "Kim", 1_700_000_000_000),))
+    made = ENGINE.decide(situation("what did I just say?", objects=SHELVES, dialogue=dialogue))
+    assert isinstance(made, Answer) and "You said: “go to bay 1”." in made.text
 
 
 def test_somebody_asleep_is_in_no_danger() -> None:

@@ -32,6 +32,7 @@ from parley.language.dialogue.facts import is_report, is_wish, own_words
 from parley.language.dialogue.indirect import meant
 from parley.language.dialogue.map_words import named
 from parley.language.dialogue.speaker import Again, name_of
+from parley.language.dialogue.standing import read_rule
 from parley.language.lexicon import word_set
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
@@ -78,6 +79,8 @@ def _decided(heard: Heard) -> Decision:
     listed = listing(situation.message, situation.objects, lexicon)
     if listed is not None:
         return Remember((listed,))
+    if (with_rule := _with_rule(heard)) is not None:
+        return with_rule
     rule = rule_of(heard.parts, situation.message, lexicon)
     if rule is not None:
         return Remember((rule,))
@@ -102,6 +105,20 @@ def _decided(heard: Heard) -> Decision:
         made = _for_who_is_there(situation, told, heard.again) or made
         return replace(made, told=told) if isinstance(made, Ask) else made
     return made
+
+
+def _with_rule(heard: Heard) -> Decision | None:
+    """An order, and what to do meanwhile in a case: "check bays 1 and 2, and stop if you see a leak"."""
+    for joint in _AND.finditer(message := heard.situation.message):
+        rule = read_rule(message[joint.end() :])
+        if rule is not None and all(act.kind in ("stop", "tell", "cancel") for act in rule.acts):
+            kept, made = heard.again(message[joint.end() :]), heard.again(message[: joint.start()])
+            if isinstance(kept, Remember) and isinstance(made, Do | Ask):
+                return replace(made, told=(*made.told, *kept.told))
+    return None
+
+
+_AND = re.compile(r"[\s,;.]+(?:and|but)\s+|[.;!]\s+", re.IGNORECASE)
 
 
 def _asks_ability(message: str, reading: Reading, lexicon: Lexicon) -> bool:
@@ -251,7 +268,8 @@ def _alone(heard: Heard) -> Decision:
     known = places((*situation.memory, *now), heard.reader, lexicon)
     builder = Builder(situation, heard.skills, lexicon, known)
     builder.tells = any("told" in part.reading.acts for part in parts)
-    thing, person = policy.spoken_of(situation, known, lexicon)
+    sought = any({*f.words} <= {"it", "them"} for w in orders if w.frame == "FIND" for f in w.all("T"))
+    thing, person = policy.spoken_of(situation, known, lexicon, sought=sought)
     visits = all(wish.frame in ("GO", "LOOK", "PHOTO") for wish in orders)
     builder.recall(thing or (policy.subject_of(situation, parts, lexicon) if visits else None), person)
     deeds = Planner(builder).planned(nodes)

@@ -16,7 +16,7 @@ from parley.language.builtin.sets import Group, apart, group, without
 from parley.language.builtin.skills import Skills
 from parley.language.builtin.spans import Filler
 from parley.language.builtin.spatial import beside, picked
-from parley.language.builtin.things import Mention, head_of, link, noun_phrase
+from parley.language.builtin.things import Mention, head_of, kind_of, link, main_word, noun_phrase
 from parley.language.builtin.tokens import Token, point_of, tokenize
 from parley.language.builtin.wishes import Wish
 from parley.language.dialogue.map_words import distance_m, in_room, named, same_kind
@@ -93,7 +93,7 @@ class Grounder:
                 return Ask(f"Which direction is “{filler.text}”?")
             return Value(direction, direction)
         if kind in ("distance", "angle", "duration"):
-            amount = amount_of(filler.words)
+            amount = _BITS.get(kind) if {*filler.words} <= _A_BIT else amount_of(filler.words)
             if amount is None or amount.kind not in (kind, "number"):
                 return Ask(f"How much is “{filler.text}”? Please say a number and its unit.")
             if amount.kind == "number" and kind == "distance":
@@ -195,7 +195,8 @@ class Grounder:
         looked_for = looked_for or (frame in self.skills and self.skills[frame].is_by_hand)
         movable = frame in _MOVABLE and filler.role == "T" and looked_for
         movable = movable and not {*filler.words[1:]} & lexicon.classes["me"]
-        if movable or frame in ("PHOTO", "BELOC") or (frame == "LOOK" and placed):
+        photo = frame == "PHOTO" and not self._akin(mention.text)  # it may be right in front of the robot
+        if movable or photo or frame == "BELOC" or (frame == "LOOK" and placed):
             called = as_said(mention.text, filler.text)
             return Value(called, with_article(called))
         return self._unknown(
@@ -216,6 +217,8 @@ class Grounder:
             return Ask(f"I do not know where {text} is. Please tell me where.", where=text)
         if sought:
             return Ask(f"I know of no “{text}”. Please tell me where to find it.", where=f"the {text}")
+        if akin := self._akin(text):
+            return Ask(f"I do not know any “{text}” here. {which_one(akin)}", akin)
         leads = frame == "GO"
         pose, objects = self.situation.robot_pose, self.situation.objects
         near = sorted(objects, key=lambda item: distance_m(item, pose)) if pose is not None else objects
@@ -224,6 +227,13 @@ class Grounder:
         named = f"{', '.join(names[:-1])} or {names[-1]}, for example." if len(names) > 1 else ""
         shown = f" {'I can go to' if leads else 'I know'} {named}" if named else ""
         return Ask(f"{unknown}{shown} Which {'place' if leads else 'thing or place'} do you mean?")
+
+    def _akin(self, text: str) -> tuple[str, ...]:
+        """What there is of the kind of something that is described as nothing is: "the torn crate"."""
+        name, objects = stems(text.lower().split()), self.situation.objects
+        known = {item.description: kind_of(stems(item.description.lower().split())) for item in objects}
+        akin = [told for told, words in known.items() if len(name) > 1 and main_word(words) == name[-1]]
+        return tuple(akin[:6])
 
     def _spoken_of(self, filler: Filler, mention: Mention) -> Value | Ask | None:
         """What was spoken of before, if words like "it" and "there" mean that."""
@@ -500,6 +510,11 @@ class Grounder:
     def left_undone(self, text: str) -> None:
         """Something that is not wanted: it is said."""
         self.notes.append(Note(f"I leave that out: “{text}”."))
+
+
+_A_BIT = word_set("a the little bit tad touch just slightly tiny")
+_BITS = {"distance": Amount(0.3, "m"), "angle": Amount(30, "degrees")}
+"""How much "a bit" is: a step, and as far as one looks round a corner."""
 
 
 def _may_be_room(frame: str, filler: Filler) -> bool:

@@ -169,7 +169,8 @@ class OwnActions:
     ) -> OwnAction | None:
         """The action that an order means; None if it means none, or one that its frame leads to."""
         phrased = [own for item in known if (own := self._phrased(clause, item, framed)) is not None]
-        if phrased or not clause.orders or asks_to_keep(clause.text):
+        how = clause.verb[:1] == ("be",)  # "be quiet" is no deed
+        if phrased or not clause.orders or how or asks_to_keep(clause.text):
             return phrased[0] if len(phrased) == 1 else None
         agreed = _is_framed(clause, reading)
         rivals = [item for item in known if item.action.name not in framed]

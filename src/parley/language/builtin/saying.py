@@ -28,15 +28,15 @@ def listed(parts: Sequence[str], last: str = "and") -> str:
 
 def which_one(names: Sequence[str]) -> str:
     """The question which of several things is meant."""
-    named = [with_article(name) for name in names]
-    return f"Which one do you mean: {listed(named, 'or')}?"
+    named = listed([with_article(name) for name in names], "or")
+    return f"Which one do you mean: {named}?" if len(names) > 1 else f"Do you mean {named}?"
 
 
 def with_article(text: str) -> str:
     """A noun phrase with "the", unless it is a name or has a word like that already."""
     first = text.split(" ", 1)[0]
     name = text[:1].isupper() and not (first.isupper() and len(first) > 1)
-    bare = name or first in _OWN or not text or text[-1].isdigit()
+    bare = name or first in _OWN or not text or text[-1].isdigit() or text[-2:-1] == " "  # "bay A"
     return text if bare else f"the {text}"
 
 

@@ -14,7 +14,7 @@ from parley.language.builtin.lexicon import Lexicon, stem, stems
 from parley.language.lexicon import word_set
 from parley.world.object_map import MapObject
 
-__all__ = ["Mention", "head_of", "link", "main_word", "noun_phrase"]
+__all__ = ["Mention", "head_of", "kind_of", "link", "main_word", "noun_phrase"]
 
 Kind = Literal["one", "part", "several", "unclear", "none", "speaker", "pronoun", "person", "here"]
 
@@ -196,7 +196,7 @@ def _rank_of(name: Sequence[str], item: MapObject) -> int:
 def _rank(wanted: tuple[str, ...], known: tuple[str, ...]) -> int:
     if wanted == known or set(wanted) == set(known) or "".join(wanted) == "".join(known):
         return 0
-    if wanted in (_naming(known)[-len(wanted) :], _kind(known)[-len(wanted) :]) or (
+    if wanted in (_naming(known)[-len(wanted) :], kind_of(known)[-len(wanted) :]) or (
         set(wanted) <= set(known) and wanted[-1] == main_word(known)
     ):
         return 1
@@ -211,7 +211,7 @@ def _rank(wanted: tuple[str, ...], known: tuple[str, ...]) -> int:
     name = _naming(known)
     found = [next((at for at, word in enumerate(name) if _same_root(one, word)), -1) for one in wanted]
     told = any(len(name[at]) == 1 or name[at].isdigit() for at in found if at >= 0)  # "store B"
-    if len(wanted) > 1 and -1 not in found and (told or name[found[-1]] == main_word(_kind(known))):
+    if len(wanted) > 1 and -1 not in found and (told or name[found[-1]] == main_word(kind_of(known))):
         return 5
     return 9
 
@@ -238,7 +238,7 @@ def _naming(known: tuple[str, ...]) -> tuple[str, ...]:
     return known[:end]
 
 
-def _kind(known: tuple[str, ...]) -> tuple[str, ...]:
+def kind_of(known: tuple[str, ...]) -> tuple[str, ...]:
     """What kind of thing is named, without its number or letter: "bay" of "bay 2"."""
     name = _naming(known)
     return name[:-1] if len(name) > 1 and (name[-1].isdigit() or len(name[-1]) == 1) else name

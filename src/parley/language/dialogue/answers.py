@@ -165,6 +165,13 @@ def _did(situation: Situation, about: str) -> str:
     return f"{done} I have begun to {listed(now)}." if now else f"{done} {failed}".rstrip()
 
 
+def _asked(situation: Situation, about: str) -> str:
+    """What somebody ordered last, and what came of it."""
+    orders = situation.dialogue.orders
+    words = f"You said: “{orders[-1].words.strip()}”. " if orders else ""
+    return f"{words}{_did(situation, about)}"
+
+
 def _before_stop(situation: Situation, about: str) -> str:
     """What was under way when somebody told it to stand still."""
     left = [step for step in _steps_left(situation) if step.state != "queued"]
@@ -183,9 +190,9 @@ def _there_yet(situation: Situation, about: str) -> str:
         return f"Not yet. Left to do: {todo}.{still}{_left_time(situation.dialogue)}"
     done = _visible(situation.dialogue.deeds)
     if not done:
-        return "I was not asked to do anything yet."
+        return f"{'Yes, I hear you. ' if about == 'there' else ''}I was not asked to do anything yet."
     kinds = {"looks"} if about[:5] in ("check", "inspe") else {"asks_operator", "grasps", "places"}
-    alike = [deed for deed in done if kinds & {*deed.effects}] if about else done
+    alike = [deed for deed in done if kinds & {*deed.effects}] if about not in ("", "there") else done
     if not alike:
         return f"No. What I did last: {deed_words(done[-1])}."
     last = alike[-1]
@@ -566,7 +573,7 @@ _TOPICS: Final[dict[str, Callable[[Situation, str], str]]] = {
     "where_are_you": _where, "been": _been, "there_yet": _there_yet, "going_before": _going_before,
     "where_going": _where_going, "why_stopped": _why_stopped, "waiting_for": _waiting, "why_not": _why_not,
     "why_not_go": _why_not_go, "why": _why, "what_doing": _doing, "what_left": _left, "what_did": _did,
-    "before_stop": _before_stop, "beside_step": _beside,
+    "before_stop": _before_stop, "beside_step": _beside, "asked": _asked,
     "what_seen": _seen, "what_else_seen": _else, "seen_thing": _seen_thing, "how_long": _how_long,
     "how_far": _how_far, "whats_in": _whats_in, "places": _places, "amiss": _amiss,
     "battery": _battery, "able": _able, "name": _name, "time": _time, "told_about": _told_about,
@@ -575,6 +582,7 @@ _TOPICS: Final[dict[str, Callable[[Situation, str], str]]] = {
     "how_are_you": lambda situation, about: f"I am well, thank you. {_doing(situation, about)}",
     "in_the_way": lambda situation, about: "Sorry. Tell me where I shall go.",
     "speed": lambda situation, about: _SPEED,
+    "will_tell": lambda situation, about: f"I tell you as soon as I am done. {_doing(situation, about)}",
     "undo": lambda situation, about: f"I cannot take back what is done. {_did(situation, about)}",
     "joke": lambda situation, about: "I am no good at that, sorry: I drive, look and remember.",
 }  # fmt: skip

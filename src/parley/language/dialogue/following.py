@@ -33,8 +33,8 @@ _LONGEST: Final = 12
 
 
 def in_turn(message: str) -> str:
-    """A message without "when you are done": every order waits for what the robot is at anyway."""
-    message = _WAY.sub("", message)
+    """A message without "when you are done" and "tell me when you are": that is how it is done anyway."""
+    message = _AT_LAST.sub(" then", _REPORTING.sub("", _WAY.sub("", message)))
     if _TELLING.search(message):
         return message
     return _DONE.sub(" ", message).strip(" ,") or message
@@ -46,6 +46,15 @@ _WAY: Final = re.compile(
     re.IGNORECASE,
 )
 """What lies on the way is done next; which way a robot takes, it finds by itself."""
+_AT_LAST: Final = re.compile(
+    r"(?:(?<=\band)|(?<=[,;]))\s*(?:at|in) the (?:very )?end,?(?= (?!of |please\b|instead\b)\w)", re.I
+)
+_REPORTING: Final = re.compile(
+    r"(?<=\w)[\s,;.]+(?:(?:and|then|please|just)\s+)*(?:report\s+back(?:\s+to\s+(?:me|us))?|"
+    r"(?:(?:tell|call|notify|inform|message)\s+(?:me|us)|let\s+(?:me|us)\s+know|report)\s+(?:when|once|as\s+soon\s+"
+    r"as)\s+you(?:\s+(?:are|have|get)|['’](?:re|ve))\s+(?:all\s+)?(?:done|finished|through|there|arrived|ready))\W*$",
+    re.IGNORECASE,
+)
 _TELLING: Final = re.compile(
     r"\b(?:tell|say|know|report|call|inform|notify|message|shout|beep)\b", re.IGNORECASE
 )

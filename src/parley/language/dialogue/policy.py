@@ -470,9 +470,12 @@ _LEADING_ON: Final = word_set("and then now next also ok okay great good fine th
 
 
 def spoken_of(
-    situation: Situation, known: Sequence[Place], lexicon: Lexicon
+    situation: Situation, known: Sequence[Place], lexicon: Lexicon, *, sought: bool = False
 ) -> tuple[MapObject | Place | None, Place | None]:
-    """What "it", "there" and "her" mean when a message begins: what was named last, who was told of last."""
+    """What "it", "there" and "her" mean when a message begins: what was named last, who was told of last.
+
+    What is `sought` is not the place by which something was that nobody knows: "I had it by the gate".
+    """
     orders = {order.words: order for order in situation.dialogue.orders}
     thing: MapObject | Place | None = _found(situation)
     place: MapObject | Place | None = None
@@ -503,7 +506,7 @@ def spoken_of(
                 place = place or found  # "go there" brings up nothing new
             else:
                 thing = found
-    return thing or place, person
+    return thing or (None if sought else place), person
 
 
 _IT: Final = frozenset({"it", "them", "one"})
