@@ -21,7 +21,7 @@ from parley.errors import ConfigError, FileFormatError, InvalidMessageError
 from parley.files import parse_json, read_text, replace_text
 from parley.gate.book import RuleBook
 from parley.gate.table import Effect, verdict
-from parley.language.dialogue.taught import key, reserved
+from parley.language.dialogue.teaching import key, reserved
 from parley.messages import topics
 from parley.messages.audit import AuditEvent
 from parley.messages.map import MapRoom, MapThing, PlaceChange, PlaceChanged, PlacesKept

@@ -22,8 +22,7 @@ from parley.demos.catalogue import DEMOS, demo_folder
 from parley.errors import ConfigError, FileFormatError
 from parley.files import read_text, validated_yaml
 from parley.language.base import Language, Situation
-from parley.language.dialogue.taught import Taught, entry_of, key, taught_in
-from parley.language.dialogue.teaching import Learned, weighed
+from parley.language.dialogue.teaching import Learned, Taught, entry_of, key, taught_in, weighed
 from parley.language.llm import build_language
 from parley.memory.store import MemoryStore
 from parley.messages.memory import MemoryEntry, taught_name

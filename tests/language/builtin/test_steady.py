@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from parley.language.builtin.decision import Ask
-from parley.language.builtin.doubts import doubt
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.builtin.lexicon import lexicon
-from parley.language.builtin.planner import orders_of
+from parley.language.builtin.planner import doubt, orders_of
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.steady import steadily
 from parley.language.builtin.tagger import shipped_tagger

@@ -7,8 +7,7 @@ from typing import Any
 import pytest
 
 from parley.language.builtin.engine import BuiltinLanguage
-from parley.language.dialogue.taught import Taught, entry_of, key, reserved
-from parley.language.dialogue.teaching import Learned, lesson_of, weighed
+from parley.language.dialogue.teaching import Learned, Taught, entry_of, key, lesson_of, reserved, weighed
 from parley.language.lexicon import load_data
 from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry

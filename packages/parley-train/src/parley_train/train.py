@@ -25,7 +25,7 @@ from torch import Tensor, nn
 
 from parley.language.builtin import labels
 from parley.language.builtin.labels import DESCRIBED, HEADS
-from parley.language.builtin.wordpiece import WordPiece
+from parley.language.builtin.tagger import WordPiece
 from parley_train import data
 from parley_train.markup import Annotated
 from parley_train.net import Tagger, load_base, load_shipped

@@ -42,7 +42,7 @@ from parley.gate.rule_talk import Listener, RuleReply, RuleTalk
 from parley.gate.stop_words import calls_to_stop, is_no, only_takes_back, opens_with_no
 from parley.gate.table import Effect, verdict
 from parley.language.base import Language
-from parley.language.dialogue.taught import taught_in, with_names
+from parley.language.dialogue.teaching import taught_in, with_names
 from parley.memory.client import recall
 from parley.memory.missions import MissionStore
 from parley.messages import topics

@@ -17,8 +17,16 @@ from parley.errors import LanguageError
 from parley.gate.cards import labels_of, lines_of
 from parley.gate.table import Effect, verdict
 from parley.language.base import Language, Situation
-from parley.language.dialogue.taught import Taught, entry_of, taught_in
-from parley.language.dialogue.teaching import Learned, asked_about, lesson_of, to_forget, weighed
+from parley.language.dialogue.teaching import (
+    Learned,
+    Taught,
+    asked_about,
+    entry_of,
+    lesson_of,
+    taught_in,
+    to_forget,
+    weighed,
+)
 from parley.memory.because import OPERATOR
 from parley.memory.client import recall
 from parley.messages import topics

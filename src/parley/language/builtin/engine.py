@@ -34,7 +34,7 @@ from parley.language.dialogue.facts import in_mind
 from parley.language.dialogue.following import in_turn
 from parley.language.dialogue.replies import read_reply
 from parley.language.dialogue.state import Asked, Dialogue, Order
-from parley.language.dialogue.taught import founded, taught_in, with_names
+from parley.language.dialogue.teaching import founded, taught_in, with_names
 from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage

@@ -12,7 +12,7 @@ from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.reply import to_chat
 from parley.language.builtin.skills import Skill
 from parley.language.builtin.tokens import Token, tokenize
-from parley.language.dialogue.taught import Taught, key, meant, named, problem_of, taught_in
+from parley.language.dialogue.teaching import Taught, key, meant, named, problem_of, taught_in
 
 __all__ = ["own_words"]
 

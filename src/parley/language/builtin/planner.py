@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from parley.language.builtin.amounts import amount_of
 from parley.language.builtin.checks import Look
 from parley.language.builtin.decision import Ask, Deed, Note
 from parley.language.builtin.deeds import Builder
-from parley.language.builtin.doubts import doubt, may_be_offered
+from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.spans import Filler
 from parley.language.builtin.structure import If, Node, Orders, Part
 from parley.language.builtin.wishes import Wish
 from parley.language.dialogue.map_words import named
 
-__all__ = ["NO_DEED", "Planner", "contradicted", "orders_of"]
+__all__ = ["NO_DEED", "Planner", "contradicted", "doubt", "orders_of"]
 
 NO_DEED = frozenset({"BELOC", "BECAT", "REMEMBER", "FORGET"})
 _NO_ORDER = frozenset({"told", "social", "need"})
@@ -373,3 +373,72 @@ def _joined(deeds: list[Deed], more: list[Deed]) -> list[Deed]:
     told = {slot: f"{text} at {last.said['T']}" for slot, text in first.arguments.items()}
     whole = replace(first, arguments=told, said={**first.said, "K": what})
     return [*deeds[:-1], whole, *(replace(d, check=whole) if d.check is first else d for d in more[1:])]
+
+
+# -- why an order is not certain enough to be carried out --
+
+
+_AGREED = 0.1
+"""So much the tagger must believe in the least certain part of a wish that the lexicon agrees with."""
+_ALONE = 0.6
+"""So much where the lexicon does not know the verb."""
+
+_NAMED = 0.03
+"""So much in a role whose words name something of the map."""
+_OFFERED = 0.1
+"""So much in what is shown for a yes."""
+_FEW = 2
+"""So many words at most may be left over of what is shown for a yes."""
+
+
+def doubt(
+    reading: Reading, orders: tuple[Wish, ...], knows: Callable[[Filler], bool], *, idle: bool = False
+) -> Ask | None:
+    """What is to be asked before these orders of a reading are carried out; None if they are certain.
+
+    Args:
+        reading: Of the clause.
+        orders: The wishes among it that are to be carried out.
+        knows: Whether all words of a role name something of the map: another witness that it is one.
+        idle: Whether there is no plan that a message could change: what sounds like a change is an order.
+    """
+    if reading.left_over:
+        return Ask(
+            f"I do not understand “{' '.join(reading.left_over)}” in this. Can you say it in other words?"
+        )
+    seen = orders and all(wish.frame in ("LOOK", "COUNT") and wish.has("TK") for wish in orders)
+    unclear = {"alarm", "control"} | (set() if seen else {"question"}) | (set() if idle else {"edit"})
+    if reading.acts & unclear:
+        return Ask("I am not sure what you want me to do. Can you say one thing at a time?")
+    if reading.unsteady:
+        what = " ".join(dict.fromkeys(" ".join(reading.unsteady).split()))
+        return Ask(f"I am not sure what you mean by “{what}”. Can you say it in other words?")
+    for wish in orders:
+        row = bool(orders[0].verb) or not any("there" in f.words for one in orders for f in one.fillers)
+        listed = row and wish != orders[0] and not wish.verb and wish.frame == orders[0].frame
+        named = listed and all(knows(filler) for filler in wish.fillers)
+        least = _AGREED if wish.witness == "agrees" or named else _ALONE  # "go to bay 1 and bay 2"
+        shares = [
+            f.share for f in wish.fillers if wish.witness != "agrees" or not knows(f) or f.share < _NAMED
+        ]
+        weak = min([wish.share, *shares]) < least
+        if weak or wish.witness == "differs":
+            what = f"“{wish.verb}”" if wish.verb else f"“{wish.fillers[0].text}”"
+            return Ask(f"I am not sure what you mean by {what}. Can you say it in other words?")
+    for filler in reading.loose:
+        second = filler.role == "L" and any(w.start < filler.start and w.has("L") for w in reading.wishes)
+        if second or filler.role not in ("A", "T", "L", "M"):
+            return Ask(f"I do not understand what “{filler.text}” belongs to. Can you say it in other words?")
+    return None
+
+
+def may_be_offered(reading: Reading, orders: Sequence[Wish], lexicon: Lexicon) -> bool:
+    """Whether orders that are not certain are sensible enough to be shown, for a person to say yes to."""
+    if reading.acts & {"alarm", "question", "control", "edit"} or len(reading.left_over) > _FEW:
+        return False
+    named = any(len(word) == 1 or word.isdigit() for word in reading.left_over)  # "areas A, B and C"
+    if named or {word.lower() for word in reading.left_over} & lexicon.classes["logic"]:
+        return False
+    if any(filler.role not in ("A", "T", "L", "M") for filler in reading.loose):
+        return False
+    return all(wish.witness != "differs" and wish.share >= _OFFERED for wish in orders)

@@ -43,15 +43,12 @@ _ON_THE_WAY: Final = frozenset({FailureCode.UNREACHABLE, FailureCode.BLOCKED, Fa
 """Failures after which another place may be named."""
 _NOT_UNDERSTOOD: Final = "understand"
 _CODE_WORDS: Final = {
-    FailureCode.NO_MATCH: "find see there missing unknown gone",
-    FailureCode.AMBIGUOUS: "several which sure",
+    FailureCode.NO_MATCH: "find see there missing unknown gone", FailureCode.AMBIGUOUS: "several which sure",
     FailureCode.UNREACHABLE: "reach way closed shut locked",
-    FailureCode.BLOCKED: "blocked block way stuck obstacle",
-    FailureCode.TIMED_OUT: "long late slow time",
-    FailureCode.UNAVAILABLE: "answer available",
-    FailureCode.NOT_CAPABLE: "able can't cannot",
+    FailureCode.BLOCKED: "blocked block way stuck obstacle", FailureCode.TIMED_OUT: "long late slow time",
+    FailureCode.UNAVAILABLE: "answer available", FailureCode.NOT_CAPABLE: "able can't cannot",
     FailureCode.HARDWARE: "broken work fail",
-}
+}  # fmt: skip
 """How people speak of a failure when they teach what is to be done about it."""
 _ANY_FAILURE: Final = "fail failed wrong error trouble problem something anything step goes go"
 

@@ -148,16 +148,9 @@ def _call(deed: Deed, before: Sequence[Deed], lexicon: Lexicon) -> ActionCall:
         name: {"pvf_type": _type(deed.skill.action.inputs.get(name, ""), value), "pvf_value": value}
         for name, value in deed.arguments.items()
     }
-    return ActionCall.model_validate(
-        {
-            deed.skill.action.name: {
-                "input_parameters": inputs,
-                "output_parameters": {},
-                "reason": f"find out where {deed.said['G']} is" if deed.hidden else said(deed, lexicon),
-                **_flow(deed, before),
-            }
-        }
-    )
+    reason = f"find out where {deed.said['G']} is" if deed.hidden else said(deed, lexicon)
+    body = {"input_parameters": inputs, "output_parameters": {}, "reason": reason, **_flow(deed, before)}
+    return ActionCall.model_validate({deed.skill.action.name: body})
 
 
 def _flow(deed: Deed, before: Sequence[Deed]) -> dict[str, object]:
