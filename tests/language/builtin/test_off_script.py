@@ -10,7 +10,7 @@ from parley.language.builtin.decision import Answer, Ask, Decision, Do, Edit, Re
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.builtin.lexicon import lexicon
 from parley.language.builtin.reply import to_chat
-from parley.language.dialogue.state import Deed, Dialogue, Order
+from parley.language.dialogue.state import Asked, Deed, Dialogue, Order
 from parley.messages.chat import ActionCall
 from parley.messages.memory import MemoryEntry
 from parley.messages.status import PlanProposal
@@ -444,6 +444,10 @@ def test_what_comes_first_is_said_beside_an_order(said: str, where: list[str] | 
         ("take a picture of the torn bay", "“torn bay” here. Which one do you mean: bay 1, bay 2 or bay A?"),
         ("check bay 1 and bay 2, and stop if you see a leak", "I will remember: stop if you see a leak."),
         ("go to bay 1. If you see a leak, tell me", "I will remember: If you see a leak, tell me."),
+        (
+            "do a round of bay 1 and bay A and stop if there's a leak",
+            "I will remember: stop if you see a leak.",
+        ),
         ("go to bay 1 and tell me when you are there", "I will go to bay 1."),
         ("tell me when you are done", "I tell you as soon as I am done."),
         ("are you there?", "Yes, I hear you."),
@@ -455,6 +459,28 @@ def test_what_comes_first_is_said_beside_an_order(said: str, where: list[str] | 
 def test_what_was_said_off_script_is_answered(said: str, told: str) -> None:
     made = ENGINE.decide(situation(said, objects=SHELVES, catalogue=SHIPPED))
     assert told in to_chat(made, lexicon()).message_response
+
+
+@pytest.mark.parametrize(
+    ("said", "answer", "where"),
+    [
+        ("go to the holding room", "yes", ["holding area"]),
+        ("go to the torn post and then to the holding area", "the second one", ["post 2", "holding area"]),
+        ("look at the torn post", "post 1", ["post 1"]),
+    ],
+)
+def test_who_is_asked_which_one_names_it_in_place_of_what_nobody_knows(
+    said: str, answer: str, where: list[str]
+) -> None:
+    objects = tuple(
+        MapObject(n, n, x, 1.0) for n, x in (("holding area", 1.0), ("post 1", 5.0), ("post 2", 9.0))
+    )
+    asked = ENGINE.decide(situation(said, objects=objects, catalogue=SHIPPED))
+    assert isinstance(asked, Ask)
+    dialogue = Dialogue(asked=Asked(asked.about, asked.choices))
+    made = ENGINE.decide(situation(answer, objects=objects, catalogue=SHIPPED, dialogue=dialogue))
+    assert isinstance(made, Do)
+    assert [*dict.fromkeys(str(v) for deed in made.deeds for v in deed.arguments.values())] == where
 
 
 def test_what_is_lost_is_not_the_place_where_it_was() -> None:

@@ -20,7 +20,7 @@ from parley.language.builtin.lexicon import Lexicon, stem
 from parley.language.builtin.listings import listing
 from parley.language.builtin.planner import Planner, contradicted, orders_of
 from parley.language.builtin.reading import Reading
-from parley.language.builtin.saying import which_one
+from parley.language.builtin.saying import listed, which_one
 from parley.language.builtin.sights import sight_asked_for
 from parley.language.builtin.skills import Skills
 from parley.language.builtin.spans import Filler
@@ -110,14 +110,22 @@ def _decided(heard: Heard) -> Decision:
 def _with_rule(heard: Heard) -> Decision | None:
     """An order, and what to do meanwhile in a case: "check bays 1 and 2, and stop if you see a leak"."""
     for joint in _AND.finditer(message := heard.situation.message):
-        rule = read_rule(message[joint.end() :])
+        case = _THERE_IS.sub(r"\1 you see", message[joint.end() :])
+        rule = read_rule(case)
         if rule is not None and all(act.kind in ("stop", "tell", "cancel") for act in rule.acts):
-            kept, made = heard.again(message[joint.end() :]), heard.again(message[: joint.start()])
-            if isinstance(kept, Remember) and isinstance(made, Do | Ask):
+            kept, made = heard.again(case), heard.again(message[: joint.start()])
+            if isinstance(kept, Remember) and isinstance(made, Ask):
+                return made  # an answer brings the whole message back
+            if isinstance(kept, Remember) and isinstance(made, Do):
+                goals = [deed.said["G"] for deed in made.deeds if not deed.hidden and "G" in deed.said]
+                if len(goals) == sum(not deed.hidden for deed in made.deeds):  # only who looks sees something
+                    looks = heard.again(f"check {listed(goals)}")
+                    made = looks if isinstance(looks, Do) else made
                 return replace(made, told=(*made.told, *kept.told))
     return None
 
 
+_THERE_IS = re.compile(r"\b(if|when|as soon as) there(?: is| are|['’]s)\b", re.IGNORECASE)
 _AND = re.compile(r"[\s,;.]+(?:and|but)\s+|[.;!]\s+", re.IGNORECASE)
 
 

@@ -218,7 +218,9 @@ class Grounder:
         if sought:
             return Ask(f"I know of no “{text}”. Please tell me where to find it.", where=f"the {text}")
         if akin := self._akin(text):
-            return Ask(f"I do not know any “{text}” here. {which_one(akin)}", akin)
+            kind = akin[0] if len(akin) == 1 else text.split(" ")[-1]  # what an answer is put in place of
+            about = self.situation.message.replace(text, kind)
+            return Ask(f"I do not know any “{text}” here. {which_one(akin)}", akin, about=about)
         leads = frame == "GO"
         pose, objects = self.situation.robot_pose, self.situation.objects
         near = sorted(objects, key=lambda item: distance_m(item, pose)) if pose is not None else objects
@@ -233,7 +235,8 @@ class Grounder:
         name, objects = stems(text.lower().split()), self.situation.objects
         known = {item.description: kind_of(stems(item.description.lower().split())) for item in objects}
         akin = [told for told, words in known.items() if len(name) > 1 and main_word(words) == name[-1]]
-        return tuple(akin[:6])
+        half = [told for told, words in known.items() if name[0] == words[0] != main_word(words)]
+        return tuple(akin[:6] or half * (len(half) == 1))  # "the loading bay" may be the loading area
 
     def _spoken_of(self, filler: Filler, mention: Mention) -> Value | Ask | None:
         """What was spoken of before, if words like "it" and "there" mean that."""

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Final
 
+from parley.gate.assent import assent_of
 from parley.language.base import Situation
 from parley.language.builtin.decision import Ask, Decision, Deed, Do, Edit
 from parley.language.builtin.lexicon import lexicon
@@ -51,6 +52,8 @@ def choice_of(situation: Situation, tokens: Sequence[Token], again: Again) -> De
         joined = _one_after_the_other(made)
         return replace(joined, about=asked.words) if isinstance(joined, Do) else joined
     choice = _by_place(words, asked.choices, situation) or chosen(words, asked.choices, also)
+    if len(asked.choices) == 1 and assent_of(situation.message):
+        choice = asked.choices[0]
     if choice is None or _orders(words, choice, asked.choices):
         return None
     one = again(asked.words, [name for name in asked.choices if name != choice])

@@ -33,8 +33,11 @@ _LONGEST: Final = 12
 
 
 def in_turn(message: str) -> str:
-    """A message without "when you are done" and "tell me when you are": that is how it is done anyway."""
-    message = _AT_LAST.sub(" then", _REPORTING.sub("", _WAY.sub("", message)))
+    """A message without "when you are done" and "tell me when you are": that is how it is done anyway.
+
+    A "round of" some places goes to them.
+    """
+    message = _ROUND.sub("go to", _AT_LAST.sub(" then", _REPORTING.sub("", _WAY.sub("", message))))
     if _TELLING.search(message):
         return message
     return _DONE.sub(" ", message).strip(" ,") or message
@@ -49,6 +52,10 @@ _WAY: Final = re.compile(
 _AT_LAST: Final = re.compile(
     r"(?:(?<=\band)|(?<=[,;]))\s*(?:at|in) the (?:very )?end,?(?= (?!of |please\b|instead\b)\w)", re.I
 )
+_ROUND: Final = re.compile(
+    r"\b(?:do|make|take|run|go on|go for) (?:a|one|another|your) (?:\w+ )?"
+    r"(?:round|lap|tour|circuit|patrol|loop) (?:of|round|around|past|through|by)\b", re.I
+)  # fmt: skip
 _REPORTING: Final = re.compile(
     r"(?<=\w)[\s,;.]+(?:(?:and|then|please|just)\s+)*(?:report\s+back(?:\s+to\s+(?:me|us))?|"
     r"(?:(?:tell|call|notify|inform|message)\s+(?:me|us)|let\s+(?:me|us)\s+know|report)\s+(?:when|once|as\s+soon\s+"
