@@ -483,6 +483,33 @@ def test_who_is_asked_which_one_names_it_in_place_of_what_nobody_knows(
     assert [*dict.fromkeys(str(v) for deed in made.deeds for v in deed.arguments.values())] == where
 
 
+@pytest.mark.parametrize(
+    ("asked", "said", "kept", "where"),
+    [
+        ("find the parcel", "it's in bay 2, I think", "", ["bay 2", "parcel"]),
+        ("is the parcel still here?", "try bay A", "", ["bay A", "parcel"]),
+        ("where's Kim?", "she is at bay 2", "Kim is at bay 2", []),
+    ],
+)
+def test_where_to_look_for_what_nobody_knows_is_asked_and_answered(
+    asked: str, said: str, kept: str, where: list[str]
+) -> None:
+    found = ENGINE.decide(situation(asked, objects=SHELVES, catalogue=SHIPPED))
+    assert isinstance(found, Ask) and "Where shall I look?" in found.question
+    dialogue = Dialogue(asked=Asked(found.about or asked, found.choices, found.where))
+    past = (Turn("operator", asked), Turn("assistant", found.question))
+    made = ENGINE.decide(situation(said, objects=SHELVES, catalogue=SHIPPED, dialogue=dialogue, history=past))
+    assert isinstance(made, Do | Remember)
+    assert [fact.text for fact in made.told] == ([kept] if kept else [])
+    told = [str(v) for deed in made.deeds for v in deed.arguments.values()] if isinstance(made, Do) else []
+    assert [*dict.fromkeys(told)] == where
+
+
+def test_thanks_leave_no_question_unheard() -> None:
+    made = decided("thanks. how about the parcel, do you know where somebody put that?")
+    assert isinstance(made, Answer | Ask) and "parcel" in to_chat(made, lexicon()).message_response
+
+
 def test_what_is_lost_is_not_the_place_where_it_was() -> None:
     past = (Turn("operator", "my wallet is gone, I had it somewhere near bay 2"),)
     made = ENGINE.decide(situation("go look for it", objects=SHELVES, catalogue=SHIPPED, history=past))

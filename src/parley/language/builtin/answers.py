@@ -63,7 +63,7 @@ def answer(
     if {*thing.words} & _ANY:
         return Answer(_NO_ANSWER)
     shown = with_article(as_said(mention.text, situation.message))
-    return _kept(situation, lexicon) or Answer(f"I do not know anything about {shown}.")
+    return _kept(situation, lexicon) or Answer(f"I do not know anything about {shown}.", unknown=shown)
 
 
 def _among(things: Sequence[MapObject], situation: Situation, lexicon: Lexicon) -> Answer:

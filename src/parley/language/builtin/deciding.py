@@ -79,16 +79,21 @@ def _decided(heard: Heard) -> Decision:
     listed = listing(situation.message, situation.objects, lexicon)
     if listed is not None:
         return Remember((listed,))
-    if (with_rule := _with_rule(heard)) is not None:
-        return with_rule
-    rule = rule_of(heard.parts, situation.message, lexicon)
-    if rule is not None:
-        return Remember((rule,))
+    if (ruled := _ruled(heard)) is not None:
+        return ruled
     made = _alone(heard)
     if _asks_ability(situation.message, whole, lexicon) and orders_of(whole)[0].frame in heard.skills:
         return Answer("Yes, I can do that. Tell me which, and I will.")
     if isinstance(made, Answer) and not made.sources and "question" in whole.acts and not situation.question:
         made = _looking(heard) or made
+    if (
+        isinstance(made, Answer)
+        and made.unknown
+        and "LOOK" in heard.skills
+        and _WHERE.search(situation.message)
+    ):
+        about = f"look for {made.unknown}"
+        made = Ask(f"{made.text} Where shall I look?", where=made.unknown, about=about)
     open_ask = isinstance(made, Ask) and not (made.choices or made.alarms or made.where)
     if open_ask and not situation.question and "told" not in whole.acts:
         made = _sight(heard) or made
@@ -107,8 +112,8 @@ def _decided(heard: Heard) -> Decision:
     return made
 
 
-def _with_rule(heard: Heard) -> Decision | None:
-    """An order, and what to do meanwhile in a case: "check bays 1 and 2, and stop if you see a leak"."""
+def _ruled(heard: Heard) -> Decision | None:
+    """What to do in a case, with an order or alone: "check bays 1 and 2, and stop if you see a leak"."""
     for joint in _AND.finditer(message := heard.situation.message):
         case = _THERE_IS.sub(r"\1 you see", message[joint.end() :])
         rule = read_rule(case)
@@ -122,9 +127,11 @@ def _with_rule(heard: Heard) -> Decision | None:
                     looks = heard.again(f"check {listed(goals)}")
                     made = looks if isinstance(looks, Do) else made
                 return replace(made, told=(*made.told, *kept.told))
-    return None
+    alone = rule_of(heard.parts, message, heard.lexicon)
+    return Remember((alone,)) if alone is not None else None
 
 
+_WHERE = re.compile(r"\b(?:where|here|there|still|seen?)\b", re.IGNORECASE)
 _THERE_IS = re.compile(r"\b(if|when|as soon as) there(?: is| are|['’]s)\b", re.IGNORECASE)
 _AND = re.compile(r"[\s,;.]+(?:and|but)\s+|[.;!]\s+", re.IGNORECASE)
 

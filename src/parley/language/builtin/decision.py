@@ -141,6 +141,8 @@ class Answer:
     sources: tuple[str, ...] = field(default=())
     waits: bool = False
     """Whether it promises to do the order when somebody tells what that waits for."""
+    unknown: str = ""
+    """Of what nothing is known."""
 
 
 Decision = Do | Ask | Remember | Forget | Edit | Control | Answer

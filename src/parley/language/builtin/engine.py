@@ -166,7 +166,7 @@ class BuiltinLanguage:
         calls = to_chat(made, self._lexicon).queue if isinstance(made, Do) else ()
         asks = isinstance(made, Ask) and (made.choices or made.where or made.alarms)
         dialogue = Dialogue(
-            asked=Asked(past, made.choices, made.where, made.alarms)
+            asked=Asked(made.about or past, made.choices, made.where, made.alarms)
             if isinstance(made, Ask) and asks
             else None,
             orders=(Order(past, calls=calls),) if calls else (),

@@ -47,7 +47,7 @@ _ALL: Final = (
 )
 _SOCIAL: Final = re.compile(
     r"(?:good (?:morning|day|evening|night|afternoon)|hello|hi|hey|bye|goodbye|see you(?: later)?|"
-    rf"thank(?:s| you)(?! (?:and |but )?(?:then|now|next)\b)(?: \w+)*(?: {_ALL})?|"
+    rf"thank(?:s| you)(?! (?:and |but )?(?:then|now|next)\b)(?: \w+){{0,5}}(?: {_ALL})?|"
     rf"{_ALL}(?: thanks| thank you)?|"
     r"(?:that (?:was|is)|that's) (?:nice|great|good|perfect|lovely|fine|quick|fast)|"
     r"cheers|well done|good (?:job|boy|robot|work)|nice|great|perfect|cool|wow|haha+.*|lol|sorry|"

@@ -10,7 +10,7 @@ from typing import Final, Protocol
 from parley.language.base import Situation
 from parley.language.builtin.decision import Ask, Decision, Do, Remember, Told
 from parley.language.builtin.lexicon import Lexicon
-from parley.language.builtin.saying import which_one
+from parley.language.builtin.saying import which_one, with_article
 from parley.language.builtin.tokens import Token, tokenize
 from parley.language.dialogue.map_words import named, rooms
 from parley.language.dialogue.replies import chosen
@@ -27,14 +27,18 @@ _HERE: Final = re.compile(
     r"(?:good (?:morning|day|afternoon|evening)(?: \w+)?\W+)?(?:(?:my name is|this is|it's) \w+\W+)?"
     r"(?:(?:ok|okay|well|oh|yes|hello|hi|hey|sorry|and|so|please)\W+)*(?:i'm|i am|we're|we are) "
     r"(?:(?:still|now|just|currently) )*(?:(?:sitting|standing|lying|waiting|working|resting|staying) )?"
-    rf"{_AT}(?P<where>.+)"
+    rf"{_AT}(?P<where>.+)",
+    re.IGNORECASE,
 )
 _ANSWER: Final = re.compile(
     r"(?:(?:ok|okay|well|oh|yes|sorry|so|please|it is|it's|that is|that's|i'm|i am|we're|we are|probably|"
     r"(?:he|she|they|it)(?:'s|'re| is| are| (?:should|must|might|may|will) be)|i think|maybe|try|look|"
     r"sitting|standing)\W+)*"
-    rf"(?:{_AT})?(?P<where>.+)"
+    rf"(?:{_AT})?(?P<where>.+)",
+    re.IGNORECASE,
 )
+_HEDGE: Final = re.compile(r",? (?:i (?:think|guess|suppose|believe)|probably|maybe|perhaps|or so)$", re.I)
+_TOLD: Final = re.compile(r"(?:he|she|it|they)\b", re.I)
 _DETERMINERS: Final = word_set("the a an my our your his her their this that please now")
 
 
@@ -63,13 +67,14 @@ def told_place(situation: Situation, lexicon: Lexicon) -> Decision | None:
 def answered_place(situation: Situation, lexicon: Lexicon, again: Again) -> Decision | None:
     """What comes of the order that was asked about, where the message says which place it is near."""
     asked = situation.dialogue.asked
-    whole = _plain(situation.message)
+    whole = _HEDGE.sub("", _plain(situation.message))
+    last = next((turn.content for turn in reversed(situation.history) if turn.role == "operator"), "")
     if "," in whole and not _place(whole, situation, lexicon):  # "in the yard, by the gate"
         whole = whole.rpartition(",")[2].strip()
     said = _ANSWER.fullmatch(whole)
     if asked is None or not asked.where or said is None or situation.message.rstrip().endswith("?"):
         return None
-    where: str | Ask | None = chosen(said["where"].split(), asked.choices) or _place(
+    where: str | Ask | None = chosen(said["where"].lower().split(), asked.choices) or _place(
         said["where"], situation, lexicon
     )
     if isinstance(where, Ask):
@@ -77,14 +82,17 @@ def answered_place(situation: Situation, lexicon: Lexicon, again: Again) -> Deci
     if where is None:
         return None
     told = _told(_who(situation) if asked.where == "you" else asked.where, said["side"] or "near", where)
+    if last not in ("", asked.words) and _TOLD.match(whole):  # "where is Kim?", "she is at the desk"
+        return Remember((told,))
     made = again(asked.words, told=(MemoryEntry(name=told.name, data=told.text),))
     if not isinstance(made, Do | Ask) or (isinstance(made, Ask) and not (made.where or made.choices)):
         return None
-    return replace(made, told=(told, *made.told), about=asked.words)  # there may be more to ask
+    sure = isinstance(made, Ask) or all(deed.frame != "FIND" for deed in made.deeds)  # else it shows
+    return replace(made, told=(*([told] if sure else []), *made.told), about=asked.words)
 
 
 def _plain(message: str) -> str:
-    return re.sub(r"\s+", " ", message.replace("’", "'").lower()).strip(" .!,")
+    return re.sub(r"\s+", " ", message.replace("’", "'")).strip(" .!,")
 
 
 def _who(situation: Situation) -> str:
@@ -93,7 +101,7 @@ def _who(situation: Situation) -> str:
 
 def _told(who: str, side: str, where: str) -> Told:
     key = "_".join(re.findall(r"\w+", who.lower().removeprefix("the ")))[:140]
-    return Told(f"{key}_location", f"{who} is {side} the {where}", f"Where {who} is")
+    return Told(f"{key}_location", f"{who} is {side.lower()} {with_article(where)}", f"Where {who} is")
 
 
 def _place(words: str, situation: Situation, lexicon: Lexicon) -> str | Ask | None:
