@@ -505,6 +505,21 @@ def test_where_to_look_for_what_nobody_knows_is_asked_and_answered(
     assert [*dict.fromkeys(told)] == where
 
 
+@pytest.mark.parametrize(
+    ("before", "said", "answer"),
+    [
+        ("is Kim awake?", "she's usually in bay 2", "I will remember that Kim's usually in bay 2."),
+        ("go to the ramp", "no sorry, I mean the bay 2", "I will go to bay 2."),
+        ("where is the ramp?", "the bay 2, I mean", "Bay 2 is"),
+        ("hello", "good. and the bay 2, is it clear?", "Shall I go and look?"),
+    ],
+)
+def test_who_or_what_is_meant_may_be_said_afterwards(before: str, said: str, answer: str) -> None:
+    past = (Turn("operator", before), Turn("assistant", "I do not know anything about that."))
+    made = ENGINE.decide(situation(said, objects=SHELVES, catalogue=SHIPPED, history=past))
+    assert answer in to_chat(made, lexicon()).message_response
+
+
 def test_thanks_leave_no_question_unheard() -> None:
     made = decided("thanks. how about the parcel, do you know where somebody put that?")
     assert isinstance(made, Answer | Ask) and "parcel" in to_chat(made, lexicon()).message_response

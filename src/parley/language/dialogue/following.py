@@ -35,9 +35,14 @@ _LONGEST: Final = 12
 def in_turn(message: str) -> str:
     """A message without "when you are done" and "tell me when you are": that is how it is done anyway.
 
-    A "round of" some places goes to them.
+    A "round of" some places goes to them; "the gate, is it open?" asks whether the gate is open.
     """
-    message = _ROUND.sub("go to", _AT_LAST.sub(" then", _REPORTING.sub("", _WAY.sub("", message))))
+    message = _ROUND.sub(
+        "go to",
+        _NAMED_FIRST.sub(
+            r"\g<be> \g<what>", _AT_LAST.sub(" then", _REPORTING.sub("", _WAY.sub("", message)))
+        ),
+    )
     if _TELLING.search(message):
         return message
     return _DONE.sub(" ", message).strip(" ,") or message
@@ -51,6 +56,11 @@ _WAY: Final = re.compile(
 """What lies on the way is done next; which way a robot takes, it finds by itself."""
 _AT_LAST: Final = re.compile(
     r"(?:(?<=\band)|(?<=[,;]))\s*(?:at|in) the (?:very )?end,?(?= (?!of |please\b|instead\b)\w)", re.I
+)
+_NAMED_FIRST: Final = re.compile(
+    r"(?:^|(?<=[.!] ))(?:(?:and|what about|how about|ok|okay|so) )*"
+    r"(?P<what>the [\w ]{2,40}?), (?P<be>is|are) (?:it|they)\b",
+    re.I,
 )
 _ROUND: Final = re.compile(
     r"\b(?:do|make|take|run|go on|go for) (?:a|one|another|your) (?:\w+ )?"

@@ -86,13 +86,16 @@ def beforehand(heard: Heard) -> Decision | None:
 
 
 def _of_whom(last: str, heard: Heard) -> Remember | None:
-    """What is told of "she", where it was told just before of somebody by name."""
-    said, name = _OF_ONE.match(heard.situation.message), facts.NAME.match(last)
-    told = said and name and heard.reader(last).acts & {"told", "need"}
+    """What is told of "she", where it was told or asked just before of somebody by name."""
+    asks = last.rstrip().endswith("?")
+    said = _OF_ONE.match(heard.situation.message)
+    name = _INNER.search(last) if asks else facts.NAME.match(last)
+    told = said and name and (asks or heard.reader(last).acts & {"told", "need"})
     made = heard.again(f"{name[0].strip()}{said['rest']}") if said and name and told else None
     return made if isinstance(made, Remember) else None
 
 
+_INNER: Final = re.compile(r"(?<=[a-z] )[A-Z][a-z]+")
 _OF_ONE: Final = re.compile(
     r"\W*(?:(?:and|but|oh|well|so)\W+)*(?:she|he)(?P<rest>(?:['’]s| is| has) .+)", re.IGNORECASE
 )
@@ -170,12 +173,33 @@ def _about_what_was_said(heard: Heard) -> Decision | None:
         unclear = isinstance(asked, Ask) and asked.choices and "told" not in reading.acts
         if unclear or (isinstance(asked, Edit) and asked.change.drop):  # "no, hang on, only the gate"
             return asked
+    if (meant := _meant(heard)) is not None:
+        return meant
     change = rearranged(situation, tokens, lexicon) or change_of(situation, tokens, lexicon, orders=False)
     if change is None and situation.dialogue.orders:
         change = followed(situation, tokens, lexicon, situation.dialogue.orders[-1])
     if change is None and instead is not None and _GIVEN_UP.match(situation.message):
         return asked if isinstance(asked, Ask) and any(w.act == "order" for w in reading.wishes) else None
     return _edit(change, situation) if change is not None else None
+
+
+def _meant(heard: Heard) -> Decision | None:
+    """What was said last about what is meant: "the crate, I mean", where no answer was found before."""
+    said, turns = _MEANT.fullmatch(heard.situation.message), heard.situation.history
+    last = next((turn.content for turn in reversed(turns) if turn.role == "operator"), "")
+    if said is None or not last or visits(heard.situation) or heard.situation.question:
+        return None
+    reading = heard.reader(last)
+    fillers = [*(filler for wish in reading.wishes for filler in wish.fillers), *reading.loose]
+    named = [one.text for one in fillers if one.role in "TGL" and last.count(one.text) == 1]
+    return heard.again(last.replace(named[-1], said["one"] or said["other"])) if named else None
+
+
+_MEANT: Final = re.compile(
+    r"\W*(?:(?:no|sorry|oh)\W+)*"
+    r"(?:i (?:mean|meant) (?P<one>the [^,.;]+)|(?P<other>the [^,.;]+?),? i (?:mean|meant))\W*",
+    re.I,
+)
 
 
 def _on_with_less(situation: Situation, again: Again) -> Edit | None:
