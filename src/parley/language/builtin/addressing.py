@@ -33,12 +33,7 @@ _ALL = (
 
 
 def addressed(situation: Situation, tokens: Sequence[Token]) -> tuple[str, ...] | Ask:
-    """The robots that are called; a question where another one is named but not called.
-
-    Args:
-        situation: Says which robots there are, and which one hears.
-        tokens: Of the message.
-    """
+    """The robots that are called; a question where another one is named but not called."""
     here = (situation.robot,) if situation.robot else ()
     if len(situation.robots) < 2:
         return here
@@ -104,12 +99,7 @@ def for_nobody(
 ) -> Ask | None:
     """The question whether to do what somebody who is no robot here was told; None where nobody was.
 
-    Args:
-        made: What the message would lead to.
-        situation: Says which robots there are, and what else has a name.
-        tokens: Of the message.
-        lexicon: Words that are no names.
-        again: Decides about the message without the call.
+    The message would lead to what is `made`; `again` decides about it without the call.
     """
     names = {word for name in situation.robots for word in name.lower().split()}
     acts = isinstance(made, Do) or (isinstance(made, Ask) and made.offer)

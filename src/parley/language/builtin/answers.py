@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Callable, Container, Sequence
 from typing import Final
@@ -112,15 +113,15 @@ def look_asked_for(tokens: Sequence[Token], names: Sequence[Named], called: Cont
     ends = [at for at, token in enumerate(tokens) if token.text in ".!?;"]
     asked = next((at for at in ends if tokens[at].text == "?"), len(tokens))  # a sentence of several
     first = max((at + 1 for at in ends if at + 1 < asked), default=0)
-    low = [token.low for token in tokens[first:asked] if token.is_word and token.low not in called]
+    said = [token.low for token in tokens[first:asked] if token.is_word and token.low not in called]
+    low = list(itertools.dropwhile(_OPENING.__contains__, said))
     if len(names) == 1 and "or" in low[3:]:  # "is the gate open or closed?"
         low = low[: low.index("or", 3)]
     if {*low[:1]} & _ANY and len(names) == 1:  # "anything at the gate?"
         return f"check if there is {' '.join(low)}"
-    ask = next((at for at, word in enumerate(low[:4]) if word in ("is", "are")), None)
-    if ask is None or set(low[:ask]) - _OPENING or len(names) != 1:
+    if not {*low[:1]} & {"is", "are"} or len(names) != 1:
         return ""
-    being, rest = low[ask], low[ask + 1 :]
+    being, rest = low[0], low[1:]
     if rest[:1] == ["there"] or (rest and rest[0] in _ANY):
         return f"check if {rest[0]} {being} {' '.join(rest[1:])}"
     start = len(rest) - len(names[0].words)

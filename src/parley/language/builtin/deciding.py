@@ -48,15 +48,9 @@ def decide(
     reader: Callable[[str], Reading],
     again: Again,
 ) -> Decision:
-    """What to do, ask, change, remember or say.
+    """What to do, ask, change, remember or say, of a message whose clauses are `parts`.
 
-    Args:
-        situation: What is known.
-        parts: The clauses of the message, each read.
-        skills: What the robot can do.
-        lexicon: Words.
-        reader: Reads what is remembered.
-        again: Decides about a part of the message, or about what was said before.
+    `reader` reads what is remembered; `again` decides about a part of the message or what was said before.
     """
     tokens = spoken(tokenize(situation.message)) or tokenize(situation.message)
     whole = reader(situation.message)
@@ -232,8 +226,9 @@ def _beside(message: str, again: Again) -> tuple[Told, ...]:
 def _offered(made: Ask, heard: Heard) -> Ask:
     """What is amiss is not remembered, and what is only named is not driven to: to go there is offered."""
     situation, tokens, lexicon = heard.situation, heard.tokens, heard.lexicon
-    names = named(tokens, situation.objects, lexicon)
-    amiss = is_report(situation.message)
+    names = named(tokens, situation.objects, lexicon) or named(tokens, situation.rooms, lexicon)
+    guess = made.question == _NO_FACT and _GUESS.search(situation.message) is not None
+    amiss = guess or is_report(situation.message)
     if not (amiss or policy.only_names(situation, tokens, names, lexicon)):
         return _to_keep(made, situation, lexicon)
     if not amiss and len(names[0].things) > 1:
@@ -248,6 +243,9 @@ def _offered(made: Ask, heard: Heard) -> Ask:
     deeds = Builder(situation, heard.skills, lexicon, ()).deeds(Wish(frame, 0, "", (about,), 1.0, "agrees"))
     what = f"the {places[-1].description}{' and have a look' if amiss else ''}"
     return made if isinstance(deeds, Ask) else Ask(f"Shall I go to {what}?", offer=tuple(deeds))
+
+
+_GUESS = re.compile(r"\b(?:i (?:think|guess|suppose|believe)|probably|maybe|perhaps|might|should be)\b", re.I)
 
 
 def _to_keep(made: Ask, situation: Situation, lexicon: Lexicon) -> Ask:

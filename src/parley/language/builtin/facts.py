@@ -35,18 +35,7 @@ class Place:
 def told_of(
     reading: Reading, message: str, starts: Sequence[int], lexicon: Lexicon, before: Sequence[Told] = ()
 ) -> tuple[Told, ...]:
-    """The facts of a message.
-
-    Args:
-        reading: Of the message.
-        message: Its text.
-        starts: Where each of its words begins in it.
-        lexicon: Words.
-        before: Those told just before it.
-
-    Returns:
-        All of them.
-    """
+    """The facts of a message, in which its words begin at `starts`, and those told just `before`."""
     found = [*before]
     for wish in reading.wishes:
         thing = wish.one("T")

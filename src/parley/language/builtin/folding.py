@@ -29,10 +29,6 @@ def folded(parse: Parse, lexicon: Lexicon) -> Parse:
     """What was read, with one order of what was two clauses.
 
     "Follow Kim, she's at the desk" says where Kim is to be met; "help Kim get to the gate" has Kim led there.
-
-    Args:
-        parse: What words are.
-        lexicon: Closed classes.
     """
     return _helped(_placed(_purposed(_done_already(parse), lexicon)), lexicon)
 

@@ -32,13 +32,7 @@ _WORD: Final = re.compile(r"[\w-]+")
 
 
 def listing(message: str, objects: Sequence[MapObject], lexicon: Lexicon) -> Told | None:
-    """The fact that some things of the map are something: behind the colon stand their names, nothing else.
-
-    Args:
-        message: As it was said.
-        objects: The map.
-        lexicon: Closed classes.
-    """
+    """The fact that some things of the map are something: behind the colon stand their names alone."""
     found = _found(" ".join(message.split()))
     if found is None or len(_items(found["items"], objects, found["head"])) < 2:
         return None

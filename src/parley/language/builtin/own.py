@@ -98,14 +98,7 @@ class OwnActions:
     def applied(
         self, parse: Parse, reading: Reading, catalogue: Sequence[ActionInfo], framed: frozenset[str]
     ) -> Reading:
-        """A reading in which orders that mean an action of the robot's own are such.
-
-        Args:
-            parse: The message.
-            reading: What it says, by frames.
-            catalogue: What the robot can do.
-            framed: Names of the actions that are known frames.
-        """
+        """A reading in which orders that mean an own action of the robot, none of the `framed`, are such."""
         known, vectors = self._prepared(catalogue)
         if not known:
             return reading

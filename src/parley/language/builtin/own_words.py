@@ -22,13 +22,7 @@ _JOINING = frozenset({"and", "then", ",", ";", ".", "first", "please", "next", "
 
 
 def own_words(situation: Situation, lexicon: Lexicon, decide: Decider) -> Decision | None:
-    """What comes of the sentences of somebody's own in a message; None if there are none.
-
-    Args:
-        situation: What is known; what was taught stands in its memory.
-        lexicon: Words.
-        decide: What comes of other words.
-    """
+    """What comes of the sentences of somebody's own in a message; None if there are none."""
     whole = meant(situation)
     if whole is not None:
         return _meaning(whole, situation, lexicon, decide)

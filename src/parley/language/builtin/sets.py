@@ -38,14 +38,7 @@ class Group:
 def group(
     words: Sequence[str], objects: Sequence[MapObject], lexicon: Lexicon, left_out: Sequence[str] = ()
 ) -> Group | None:
-    """The set that words name; None if they name no set.
-
-    Args:
-        words: Of the span, in small letters.
-        objects: The map.
-        lexicon: Closed classes.
-        left_out: Words that name an exception.
-    """
+    """The set that words, in small letters, name, without what `left_out` names; None if they name no set."""
     if words and (words[0] in ("toward", "towards") or "between" in words):
         return None
     said = list(words)

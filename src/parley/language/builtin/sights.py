@@ -50,13 +50,7 @@ def sight_asked_for(
     """The look or the count that a question, or an order to tell, asks for; None if none is needed.
 
     It names one place of the map, and asks how many there are, which one of the things there it is, or who.
-
-    Args:
-        situation: What is known.
-        tokens: Of the message.
-        names: What it names on the map.
-        lexicon: Words.
-        counting: Whether the robot can count; else it looks how many there are.
+    Where the robot is not `counting`, it looks how many there are.
     """
     spoken = [token for token in tokens if token.is_word]
     while spoken and spoken[-1].low in _COURTESY:

@@ -192,12 +192,8 @@ def change_of(
 ) -> Change | None:
     """What a message changes of what runs or waits; None if it changes nothing.
 
-    Args:
-        situation: The plan among it.
-        tokens: Of the message.
-        lexicon: Words.
-        orders: Whether an order was read in it that can be carried out as it stands: its steps are put into
-            the change by whoever read it.
+    It `orders` where an order was read in it that can be carried out as it stands: its steps are put into
+    the change by whoever read it.
     """
     plan, names = visits(situation), named(tokens, situation.objects, lexicon)
     low = [token.low for token in tokens]

@@ -30,13 +30,7 @@ _SMALL_VERBS: Final = frozenset({"mean", "meant"})
 
 
 def choice_of(situation: Situation, tokens: Sequence[Token], again: Again) -> Decision | None:
-    """The order that was asked about, with what is meant of several things.
-
-    Args:
-        situation: In which it is said.
-        tokens: Of the message.
-        again: Reads the order once more, without some things.
-    """
+    """The order that was asked about, with what is meant of several things."""
     asked = situation.dialogue.asked
     words = [token.low for token in tokens if token.is_word]
     lead = 1 if words[:1] == ["no"] else 2 if words[:2] == ["all", "right"] else 0

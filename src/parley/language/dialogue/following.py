@@ -88,11 +88,7 @@ _DONE: Final = re.compile(
 def followed(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, last: Order) -> Change | None:
     """What was ordered last, about the things that are named now; None if a message says anything else.
 
-    Args:
-        situation: What is known; nothing may be planned, and nothing be asked.
-        tokens: Of the message.
-        lexicon: Words.
-        last: The order.
+    Nothing may be planned then, and nothing be asked.
     """
     words = [token.low for token in tokens if token.is_word]
     said = " ".join(words)

@@ -57,11 +57,7 @@ def meant_order(bare: str) -> tuple[str, bool] | None:
 def meant(tokens: Sequence[Token], names: Sequence[str], lexicon: Lexicon, again: Again) -> Decision | None:
     """What comes of a message that means an order without giving it; None for all others.
 
-    Args:
-        tokens: Of the message.
-        names: Of the robot that is spoken to.
-        lexicon: Words.
-        again: Decides about the order.
+    `names` are those of the robot that is spoken to; `again` decides about the order.
     """
     found = meant_order(plain(tokens, names))
     if found is None:
