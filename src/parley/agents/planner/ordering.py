@@ -178,6 +178,8 @@ class Ordering:
         if replaced is not None and replaced.target == plan.target:
             self._plans.approvals.drop(replaced.id)
             self._plans.send(plan, [])
+            if replaced.why and _deeds(replaced.steps) <= _deeds(order.queue):  # more is no yes to a doubt
+                order = order.model_copy(update={"needs_yes": replaced.why})
         if calls is None:  # nothing of such an order is done, but stopping is never refused
             commands = [item for item in commands if EFFECT_OF[item.command] is Effect.PAUSE]
         ruling = self._rule(plan, order, calls or (), commands, judgement=judgement)
@@ -318,3 +320,8 @@ class Ordering:
             self._plans.audit(EFFECT_OF[command.command], order, plan.target, "refused")
         if order.queue and ruling.begins != "now":
             self._plans.audit(Effect.BEGIN, order, plan.target, "asked" if outcome == "asked" else "refused")
+
+
+def _deeds(calls: Sequence[ActionCall]) -> set[str]:
+    """What steps do, whatever leads to them."""
+    return {f"{call.name} {sorted(call.input_parameters.items())}" for call in calls}
