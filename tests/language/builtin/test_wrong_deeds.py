@@ -9,7 +9,7 @@ import pytest
 from parley.language.base import Situation
 from parley.language.builtin.decision import Answer, Ask, Decision, Do, Forget, Remember
 from parley.language.builtin.engine import BuiltinLanguage
-from parley.language.builtin.judging import asked
+from parley.language.builtin.judging import Asked, asked
 from parley.messages.chat import ActionCall
 from parley.messages.memory import MemoryEntry
 from parley.messages.pvf import Parameter
@@ -159,3 +159,15 @@ def test_what_is_to_be_so_is_judged_without_a_word_that_asks(said: str) -> None:
 def test_half_a_list_is_not_even_offered() -> None:
     made = decided("I need bays 1, 2 and X checked. Divide them among yourselves.")
     assert isinstance(made, Ask) and not made.offer
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "whether there is anything lying around in bay 2",
+        "whether anything is left in bay 2",
+        "whether there is anything parked in bay 2",
+    ],
+)
+def test_how_something_lies_there_makes_no_other_place_of_it(said: str) -> None:
+    assert asked(said) == Asked("thing", ("anything",), ("bay", "2"), unwanted=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final, Literal
@@ -50,7 +51,7 @@ def asked(request: str) -> Asked:
         >>> asked("whether the yard is clear")
         Asked(kind='room', thing=(), place=('the', 'yard'), holds=True, unwanted=False)
     """
-    words = tuple(request.lower().replace("'s ", " is ").replace("’s ", " is ").rstrip(" .?!").split())
+    words = tuple(_LYING.sub("", re.sub("['’]s ", " is ", request.lower())).rstrip(" .?!").split())
     if words[:1] and words[0] in _ASKING:
         return Asked("state") if words[0] in OPEN else _stated(words[1:])
     if words[:1] == ("there",) and {*words[1:2]} & _BE:
@@ -61,6 +62,12 @@ def asked(request: str) -> Asked:
         return Asked("thing", _bare(thing), place, unwanted=_is_unwanted(thing, sought=True))
     thing, place = _placed(words)
     return Asked("thing", _bare(thing), place, unwanted=_is_unwanted(thing))
+
+
+_LYING: Final = re.compile(
+    r" (?:lying|standing|sitting|left|parked|stored)(?: (?:around|about)\b|(?= (?:in|on|at|inside|within) ))"
+)
+"""How something is somewhere says nothing of whether it is there."""
 
 
 def _stated(words: tuple[str, ...]) -> Asked:
