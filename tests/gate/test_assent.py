@@ -80,7 +80,10 @@ def test_whatever_begins_with_a_no_is_no_yes(said: str, negated: bool) -> None:
     assert begins_with_no(said) is negated
 
 
-@pytest.mark.parametrize("said", ["go and see", "yes, have a look", "go there and look please", "Ada, check"])
+@pytest.mark.parametrize(
+    "said",
+    ["go and see", "go and check it out", "yes, have a look", "go there and look please", "Ada, check"],
+)
 def test_who_is_offered_a_look_may_say_yes_in_these_words(said: str) -> None:
     assert assent_of(said, ["Ada"], to_see=True) is True
     assert assent_of(said, ["Ada"]) is None

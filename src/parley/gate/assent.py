@@ -49,6 +49,7 @@ _NO_PARTS: Final = frozenset({
     "that is not what i meant", "you may not", "you must not",
 })  # fmt: skip
 _TO_SEE: Final = frozenset({
+    "go and check it out", "go check it out", "check it out", "have a look at it", "look into it",
     "go and see", "go see", "go and look", "go look", "have a look", "take a look", "go and have a look",
     "go and take a look", "go and check", "go check", "look", "check", "check it", "see for yourself",
     "go there and look", "go there and see", "go over there", "find out", "go and find out",

@@ -451,6 +451,7 @@ def test_what_comes_first_is_said_beside_an_order(said: str, where: list[str] | 
         ("go to bay 1 and tell me when you are there", "I will go to bay 1."),
         ("tell me when you are done", "I tell you as soon as I am done."),
         ("are you there?", "Yes, I hear you."),
+        ("when you've got a minute go to bay 1", "I will go to bay 1."),
         ("go to bay 1 and in the end to bay A", "I will go to bay 1 and then go to bay A."),
         ("turn a little to the left", "30 degrees"),
         ("be quiet around him", "I do not understand “quiet” in this."),

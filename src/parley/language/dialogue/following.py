@@ -78,9 +78,11 @@ _TELLING: Final = re.compile(
 
 
 _DONE: Final = re.compile(
-    r"(?:^|,?\s*\b)(?:when|once|after|as soon as)\s+you(?:\s+are|'re|’re|\s+have|'ve|’ve)\s+(?:all\s+)?"
-    r"(?:done|finished|through)\b(?:\s+(?:with\s+)?(?:that|this|it|there|here|everything|all\s+that|the\s+rest|"
-    r"your\s+(?:work|task|job|round|plan)|what\s+you\s+are\s+doing))?(?=\s*(?:[.,!]|$|\bplease\b))[\s,]*",
+    r"(?:^|,?\s*\b)(?:when|once|after|as soon as)\s+you(?:(?:\s+have|\s+get|\s+find|['’]ve(?:\s+got)?)"
+    r"(?:\s+(?:a|the|some|spare))*\s+(?:time|minute|moment|second|sec|chance)\b|"
+    r"(?:\s+are|'re|’re|\s+have|'ve|’ve)\s+(?:all\s+)?"
+    r"(?:done|finished|through|free)\b(?:\s+(?:with\s+)?(?:that|this|it|there|here|everything|all\s+that|the\s+rest|"
+    r"your\s+(?:work|task|job|round|plan)|what\s+you\s+are\s+doing))?(?=\s*(?:[.,!]|$|\bplease\b)))[\s,]*",
     re.IGNORECASE,
 )
 
