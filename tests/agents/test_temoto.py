@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from typing import Any
 
 import pytest
 
+from parley.agents import temoto
 from parley.agents.temoto import TemotoActors
 from parley.clock import WallClock
 from parley.messages import ros, topics
@@ -28,6 +30,8 @@ class TemotoEngine(ThesisEngine):
         self._catalogue = actions_of(body)
         self.refuses = self.keeps = self.is_silent = False
         """Whether it takes no command; has it what it refused; is all its feedback lost."""
+        self.answers = asyncio.Event()
+        self.answers.set()
         self._kept: list[str] = []
 
     async def open(self) -> None:
@@ -36,6 +40,7 @@ class TemotoEngine(ThesisEngine):
         self.opened.push_async_callback(served.close)
 
     async def _tell(self, _: ros.UmrfGraphGetRequest) -> ros.UmrfGraphGetResponse:
+        await self.answers.wait()
         actions = tuple(write_descriptor(spec) for spec in self._catalogue)
         held = tuple(write_graph(run.snapshot()) for run in self._runs.all)
         return ros.UmrfGraphGetResponse(actions, (), (*held, *self._kept))
@@ -77,6 +82,34 @@ async def test_what_an_engine_of_temoto_can_do_is_known_while_it_is_there() -> N
                 assert told[0].catalogue[1].inputs == {"x": "number"}
             await party.until(lambda: told[-1].state == "leaving")
         assert [status.sequence for status in told] == sorted({status.sequence for status in told})
+
+
+async def test_one_that_hangs_is_told_of_soon_but_not_while_it_does_what_it_was_told(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(temoto, "SILENT_S", 0.3)
+    monkeypatch.setattr(temoto, "ENDS_S", 1.0)
+    told: list[ActorStatus] = []
+    async with with_temoto() as (party, engine, _):
+        hears = lambda message: told.append(decode(ActorStatus, message.data))  # noqa: E731
+        await party.transport.subscribe(topics.ACTOR_STATUS, hears)
+
+        def trouble() -> str:
+            return next((status.trouble for status in reversed(told) if status.actor == "Z"), "")
+
+        await party.until(lambda: told)
+        engine.answers.clear()
+        await party.until(lambda: trouble() == "silent", within_s=1.0)
+        engine.answers.set()
+        await party.until(lambda: trouble() == "")
+
+        await party.settled()
+        engine.refuses = True  # it has no such graph
+        engine.answers.clear()
+        party.transport.publisher(topics.GRAPH_STOP).publish(ros.UmrfGraphStop("none", ("Z",)))
+        await asyncio.sleep(0.6)
+        assert trouble() == ""
+        await party.until(lambda: trouble() == "silent", within_s=2.0)
 
 
 @pytest.mark.parametrize("keeps", [False, True])

@@ -60,6 +60,17 @@ def test_a_robot_that_falls_silent_is_reported_once_and_welcomed_back(view: Oper
     ]
 
 
+def test_nobody_is_out_of_contact_for_the_time_in_which_the_terminal_itself_hung(view: OperatorView) -> None:
+    assert view.tick(100.2 + LOST_AFTER_S, late_s=LOST_AFTER_S) == []
+    assert len(view.tick(100.5 + 2 * LOST_AFTER_S)) == 1
+
+
+def test_a_robot_of_which_others_say_that_it_does_not_answer_is_told_of_once(view: OperatorView) -> None:
+    silent = ActorStatus(actor="Ada", trouble="silent")
+    told = view.on_status(silent, 101.0) + view.on_status(silent, 102.0)
+    assert [line.text for line in told] == ["Ada does not answer. Look whether it stands."]
+
+
 def test_a_robot_that_is_only_spoken_of_cannot_be_selected(view: OperatorView) -> None:
     view.on_feedback(ChatFeedback(message="I know no Bo.", targets=("Bo",)))
     assert view.select("Bo") is None
@@ -241,15 +252,16 @@ def test_a_release_that_a_robot_did_not_hear_is_said(view: OperatorView) -> None
     assert view.known_stops() == ("of Ada", "of Bob")
     view.on_stop_report(StopReport(actor="Ada", state="reset"))
     told = [line.text for now_s in (10.0, 11.9, 12.1, 13.0) for line in view.tick(now_s)]
+    told = [text for text in told if "No contact" not in text]
     assert told == ["Bob has not heard that it is released and stays stopped. Write /reset again."]
 
 
 def test_who_does_not_answer_a_stop_in_time_is_named_once(view: OperatorView) -> None:
-    view.on_status(ActorStatus(actor="Ada"), now_s=10.0)
     view.note_own_stop("s1", ["Ada", "Bob"])
     view.on_stop_report(StopReport(actor="Ada", id="s1", state="received"))
-    assert [line.text for now_s in (10.0, 11.9) for line in view.tick(now_s)] == []
-    assert [line.text for now_s in (12.1, 13.0) for line in view.tick(now_s)] == [
+    assert [line.text for now_s in (100.0, 101.9) for line in view.tick(now_s)] == []
+    view.on_status(ActorStatus(actor="Ada", state="stopped"), 102.0)
+    assert [line.text for now_s in (102.1, 103.0) for line in view.tick(now_s)] == [
         "Bob does not answer. Look whether it stands."
     ]
 

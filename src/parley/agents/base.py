@@ -196,14 +196,14 @@ class Node:
             topics.REJECTION, Rejection(source=self.name, target=target, what=what, problems=(problem,))
         )
 
-    def spawn(self, work: Coroutine[Any, Any, None], *, name: str = "") -> asyncio.Task[None]:
+    def spawn(self, work: Coroutine[Any, Any, object], *, name: str = "") -> asyncio.Task[Any]:
         """Run `work` beside everything else; a failure is logged, closing the node cancels it."""
-        task = asyncio.create_task(work, name=f"{self.name} {name}".rstrip())
+        task: asyncio.Task[Any] = asyncio.create_task(work, name=f"{self.name} {name}".rstrip())
         self._tasks.add(task)
         task.add_done_callback(self._finished)
         return task
 
-    def _finished(self, task: asyncio.Task[None]) -> None:
+    def _finished(self, task: asyncio.Task[Any]) -> None:
         self._tasks.discard(task)
         if not task.cancelled() and (error := task.exception()) is not None:
             self.log.error("background work failed", task=task.get_name(), exc_info=error)

@@ -10,7 +10,7 @@ import asyncio
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from typing import Final
+from typing import Any, Final
 
 from parley.agents.base import Node
 from parley.agents.presence import LOST_AFTER_S, STARVED_AFTER_S
@@ -24,8 +24,9 @@ from parley.messages.status import (
     Rejection,
     RejectionProblem,
     StopCommand,
+    Trouble,
 )
-from parley.messages.topics import Service
+from parley.messages.topics import Service, Topic
 from parley.transport.base import Transport, absolute
 from parley.umrf.catalogue import info_of
 from parley.umrf.io import read_descriptor, read_graph
@@ -34,11 +35,14 @@ from parley.umrf.model import ENDED, Graph, GraphState
 __all__ = ["TemotoActors"]
 
 BEAT_S: Final = 1.0
-ASK_S: Final = 2.0
-"""How often an engine is asked while it works."""
-IDLE_ASK_S: Final = 10.0
-"""The same while it does not: what it can do may change."""
+LOOK_S: Final = 0.25
+ASK_S: Final = 1.0
+"""How often an engine is asked: of one that was killed, DDS alone would tell only after up to 20 s."""
 ANSWER_S: Final = 2.0
+SILENT_S: Final = 2.0
+"""After such a silence it counts as silent, and people are told."""
+ENDS_S: Final = 6.0
+"""The same after a command: it answers nothing while it brings an action to its end, which may take 5 s."""
 TAKES_S: Final = 1.5
 """It tells what changed every half second; after such a silence it is asked."""
 APART_S: Final = 0.2
@@ -57,7 +61,13 @@ class _Guest:
     service: Service[ros.UmrfGraphGetRequest, ros.UmrfGraphGetResponse]
     sequence: int = 0
     there: bool = False
-    answered_s: float = 0.0
+    answered_s: float = float("-inf")
+    heard_s: float = float("-inf")
+    """When it last answered, or said anything."""
+    commanded_s: float = float("-inf")
+    said_s: float = float("-inf")
+    """When others last heard how it fares."""
+    trouble: Trouble = ""
     catalogue: tuple[ActionInfo, ...] = ()
     described: tuple[str, ...] = ()
     """What `catalogue` was read from."""
@@ -85,7 +95,7 @@ class TemotoActors(Node):
         transport: Where they are.
         clock: Its wall time counts.
         actors: Their names, and for each the name of the service that it answers (`umrf_graph_get`).
-        ask_s: Wall time between two questions to an engine that works.
+        ask_s: Wall time between two questions to an engine.
         takes_s: Wall time after which an engine that said nothing of a graph is asked for it.
     """
 
@@ -110,6 +120,11 @@ class TemotoActors(Node):
         """See `Node.open`."""
         await self.subscribe_raw(topics.GRAPH_FEEDBACK, self._on_feedback, depth=100)
         await self.subscribe_raw(topics.GRAPH_START, self._on_start)
+        commands: tuple[Topic[Any], ...] = (
+            topics.GRAPH_MODIFY, topics.GRAPH_PAUSE, topics.GRAPH_RESUME, topics.GRAPH_STOP,
+        )  # fmt: skip
+        for command in commands:
+            await self.subscribe_raw(command, self._on_command)
         await self.subscribe(topics.STOP, StopCommand, self._on_stop)
         self.opened.callback(self.transport.on_endpoints_changed(self._on_ends))
         for guest in self._guests.values():
@@ -123,7 +138,12 @@ class TemotoActors(Node):
             if guest.there != self._is_served(guest):
                 guest.changed.set()
 
+    def _on_command(self, message: Any) -> None:
+        for guest in self._meant(message.targets):
+            guest.commanded_s = self._clock.wall_s()
+
     def _on_start(self, message: ros.UmrfGraphStart) -> None:
+        self._on_command(message)
         for guest in self._meant(message.targets):
             name = message.umrf_graph_name
             if message.umrf_graph_json:
@@ -141,6 +161,7 @@ class TemotoActors(Node):
         for text in reversed(feedback.history):
             with suppress(GraphRefusedError):  # the planner says so
                 self._note(guest, read_graph(text), text)
+        guest.heard_s = self._clock.wall_s()
         guest.changed.set()
 
     def _on_stop(self, command: StopCommand) -> None:
@@ -166,23 +187,30 @@ class TemotoActors(Node):
 
     async def _watch(self, guest: _Guest) -> None:
         asked_s = float("-inf")
+        asking: asyncio.Task[Any] | None = None
         while True:
+            news = guest.changed.is_set()
             guest.changed.clear()
             if not self._is_served(guest):
                 self._leave(guest)
                 asked_s = float("-inf")
                 await guest.changed.wait()
                 continue
-            pause_s = self._ask_s if guest.sent or guest.state != "idle" else IDLE_ASK_S
-            if self._clock.wall_s() - asked_s >= pause_s:
-                asked_s = self._clock.wall_s()
-                await self._ask(guest)
-            # It answers nothing while it brings an action to its end, which may take 5 s.
-            if self._clock.wall_s() - guest.answered_s < STARVED_AFTER_S:
+            now_s = self._clock.wall_s()
+            if now_s - asked_s >= self._ask_s and (asking is None or asking.done()):
+                asked_s, asking = now_s, self.spawn(self._ask(guest), name=f"ask {guest.actor}")
+            news |= now_s - guest.said_s >= BEAT_S or guest.trouble != self._trouble(guest, now_s)
+            if news and now_s - guest.answered_s < STARVED_AFTER_S:
+                guest.said_s, guest.trouble = now_s, self._trouble(guest, now_s)
                 self._say(guest, guest.state)
             with suppress(TimeoutError):
-                async with asyncio.timeout(min(BEAT_S, self._ask_s)):
+                async with asyncio.timeout(min(LOOK_S, self._ask_s)):
                     await guest.changed.wait()
+
+    def _trouble(self, guest: _Guest, now_s: float) -> Trouble:
+        """Whether it says nothing for longer than what it was told to do explains."""
+        explained_s = ENDS_S if now_s - guest.commanded_s < ENDS_S else SILENT_S
+        return "silent" if now_s - guest.heard_s > explained_s else ""
 
     async def _look_for(self, guest: _Guest, name: str) -> None:
         """See whether the engine took a graph of which it says nothing."""
@@ -212,7 +240,8 @@ class TemotoActors(Node):
         except TransportError as error:
             self.log.info("an engine of TeMoto does not answer", robot=guest.actor, why=str(error))
             return False
-        guest.answered_s = self._clock.wall_s()
+        guest.answered_s = guest.heard_s = self._clock.wall_s()
+        guest.changed.set()
         if answer.umrf_jsons != guest.described:
             guest.described, guest.catalogue = answer.umrf_jsons, tuple(self._read_actions(answer.umrf_jsons))
         guest.read = dict(self._read_graphs(guest, answer.graph_jsons_running))
@@ -257,7 +286,8 @@ class TemotoActors(Node):
     def _leave(self, guest: _Guest) -> None:
         if guest.there:
             self._say(guest, "leaving")
-        guest.there = False
+        guest.there, guest.trouble = False, ""
+        guest.said_s = guest.answered_s = guest.heard_s = float("-inf")
         guest.graphs, guest.read, guest.sent, guest.told = {}, {}, {}, {}
 
     def _say(self, guest: _Guest, state: str) -> None:
@@ -265,6 +295,7 @@ class TemotoActors(Node):
         told = ActorStatus.model_validate(
             {
                 "actor": guest.actor, "engine": "temoto", "state": state, "sequence": guest.sequence,
+                "trouble": guest.trouble,
                 "graphs": {name: graph.state.value for name, graph in guest.graphs.items()},
                 "catalogue": guest.catalogue,
             }

@@ -29,7 +29,7 @@ __all__ = ["TerminalClient", "console_for", "language_of"]
 
 log = structlog.get_logger(__name__)
 
-_TICK_S = 1.0
+_TICK_S = 0.25
 _SECOND_INTERRUPT_S = 2.0
 _FIRST_ROBOT_TIMEOUT_S = 10.0
 _REPLY_TIMEOUT_S = 30.0
@@ -336,8 +336,10 @@ class TerminalClient:
 
     async def _tick(self) -> None:
         while True:
+            due_s = self._clock.wall_s() + _TICK_S
             await asyncio.sleep(_TICK_S)
-            if lines := self._view.tick(self._clock.wall_s()):
+            now_s = self._clock.wall_s()
+            if lines := self._view.tick(now_s, late_s=now_s - due_s):
                 self._show(lines)
 
     # Showing.

@@ -18,6 +18,7 @@ from parley.messages.status import (
     PlanUpdate,
     Rejection,
     StopReport,
+    Trouble,
 )
 from parley.sentences import LANGUAGES, SpokenLanguage, in_language, sentence
 from parley.terminal.lines import Fragments, Line, LineKind
@@ -53,8 +54,8 @@ _DRAFT_CHARS = 70
 
 ANSWERS_WITHIN_S = 2.0
 """Wall time in which a robot that is told to stop says that it was."""
-LOST_AFTER_S = 5.0
-"""Wall time without a heartbeat after which a robot counts as out of contact."""
+LOST_AFTER_S = 2.0
+"""Wall time without a heartbeat, of which there is one a second, after which a robot does not answer."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +82,7 @@ class RobotView:
     is_here: bool = False
     """Whether it ever sent a heartbeat; others may speak of robots that do not exist."""
     is_lost: bool = False
+    trouble: Trouble = ""
     plan: PlanUpdate | None = None
     progress: Progress | None = None
     pending: list[Question | PlanProposal] = field(default_factory=list)
@@ -245,17 +247,26 @@ class OperatorView:
             return self._leave(status.actor)
         robot = self._robot(status.actor)
         is_new, was_lost = not robot.is_here, robot.is_lost
-        robot.is_here, robot.is_lost = True, False
+        falls_silent = status.trouble == "silent" != robot.trouble
+        robot.is_here, robot.is_lost, robot.trouble = True, False, status.trouble
         robot.state, robot.stop, robot.seen_s = status.state, status.stop, now_s
         self.selected = self.selected or robot.name
         if is_new:
             return [Line("note", self.say("{robot} is here.", robot=robot.name))]
+        if falls_silent:
+            return [Line("problem", self.say(STOPS["silent"], robot=robot.name))]
         return [Line("note", self.say("{robot} is in contact again.", robot=robot.name))] if was_lost else []
 
-    def tick(self, now_s: float) -> list[Line]:
-        """Time passes: notice who has fallen silent. `now_s` is wall time."""
+    def tick(self, now_s: float, *, late_s: float = 0.0) -> list[Line]:
+        """Time passes: notice who has fallen silent.
+
+        Args:
+            now_s: Wall time.
+            late_s: How much later than it wanted the caller comes: so long nobody was heard here.
+        """
         lines: list[Line] = []
         for robot in self.here:
+            robot.seen_s = min(now_s, robot.seen_s + max(0.0, late_s))
             if not robot.is_lost and now_s - robot.seen_s > LOST_AFTER_S:
                 robot.is_lost = True
                 lines.append(Line("problem", self.say("No contact with {robot}.", robot=robot.name)))

@@ -11,8 +11,8 @@ from parley.web.models import AbilityView, Change, Policy, RobotChange, RobotGon
 
 __all__ = ["LOST_AFTER_S", "STOP_DEADLINE_S", "RobotBook"]
 
-LOST_AFTER_S: Final = 5.0
-"""Wall time without a heartbeat after which a robot counts as out of contact."""
+LOST_AFTER_S: Final = 2.0
+"""Wall time without a heartbeat, of which there is one a second, after which a robot does not answer."""
 STOP_DEADLINE_S: Final = 3.0
 """Wall time from an emergency stop within which the robot must have confirmed that it stands."""
 RELEASE_HOLDS_S: Final = 30.0

@@ -71,6 +71,15 @@ it('says which robot somebody has to go and look after, and no more once it is w
   expect(screen.queryByText(/is pressed|does not answer/)).toBeNull();
 });
 
+it('says of a robot that was lost while it may have been driving that somebody has to go and look', () => {
+  const gone = { connection: 'lost', state: 'running' } as const;
+  const robots = [robot({ ...gone, name: 'Ada' }), robot({ ...gone, name: 'Bob', state: 'idle', at_rest: true })];
+  act(() => useLive.getState().takeSnapshot(snapshot({ robots })));
+  render(<StopBanner />);
+  screen.getByText(/^Ada does not answer/);
+  expect(screen.queryByText(/Bob/)).toBeNull();
+});
+
 describe('stopping', () => {
   it('stops all robots with one click', async () => {
     const user = show('none', 'none');

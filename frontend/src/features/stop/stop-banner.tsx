@@ -2,6 +2,7 @@ import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { useWorld } from '@/live/store';
+import type { RobotView } from '@/live/types';
 import { type StoppedRobot, stoppedRobots, useStopping } from '@/state/stopping';
 import { Button } from '@/ui/button';
 import { Icon } from '@/ui/icon';
@@ -61,15 +62,21 @@ function NotKept() {
 function Troubled() {
   const { t } = useTranslation('stop');
   const robots = useWorld((world) => world.robots);
-  return Object.values(robots).map(
-    ({ name, connection, trouble }) =>
-      connection === 'here' &&
+  return Object.values(robots).map((robot) => {
+    const trouble = robot.connection === 'here' ? robot.trouble : lostUnderWay(robot);
+    return (
       trouble && (
-        <p key={name} className={css.pending} data-failed>
-          {t(`trouble.${trouble}`, { name })}
+        <p key={robot.name} className={css.pending} data-failed>
+          {t(`trouble.${trouble}`, { name: robot.name })}
         </p>
-      ),
-  );
+      )
+    );
+  });
+}
+
+/** Whether it may have been driving when it was heard last; of one that is stopped the stop tells. */
+function lostUnderWay({ connection, state, at_rest, stop }: RobotView) {
+  return connection === 'lost' && stop.state === 'none' && (state === 'running' || at_rest === false) && 'lost';
 }
 
 /** Many stopped robots in one banner, and each when wanted. */
