@@ -31,6 +31,57 @@ radius_m: 0.22
 limits: {max_speed_mps: 0.26, max_turn_radps: 1.8}
 topics: {detections: detections, emergency: e_stop}
 """
+DRIVER_FILE = '''
+"""A driver of somebody's own: it sends velocities to its base, which is another process."""
+
+import asyncio, time
+
+from parley.api import ActionFailure, DriveLimits, FailureCode, Pose2D, RobotBase, Velocity
+from parley.config import NetworkSettings, SystemConfig
+from parley.messages.ros_robot import Odometry, Twist, Vector3
+from parley.messages.topics import QoS
+from parley.network import transport_of
+from parley.robots.ros_senses import RosTopics
+from parley.robots.ros_values import planar
+
+
+class Driver(RobotBase):
+    radius_m, limits = 0.22, DriveLimits(max_speed_mps=0.26, max_turn_radps=1.8)
+
+    async def open(self):
+        self._loop, self._heard = asyncio.get_running_loop(), asyncio.Event()
+        network = NetworkSettings(domain=DOMAIN, role="client", connect=("BASE",), interface="")
+        base = await transport_of(SystemConfig(network=network)).__aenter__()
+        names = RosTopics()
+        self._out = base.publisher(names.topic(names.cmd_vel, Twist))
+        odom = names.topic(names.odom, Odometry, QoS(reliable=False, depth=5))
+        await base.subscribe(odom, self._on_odom)
+        await self._heard.wait()
+
+    def _on_odom(self, told):
+        self._odom, self._heard_s = told, time.monotonic()
+        self._heard.set()
+
+    def trouble(self):
+        return "" if time.monotonic() - self._heard_s < 1.0 else "silent"
+
+    def _told(self):
+        if self.trouble():
+            raise ActionFailure(FailureCode.HARDWARE, "My base does not answer.")
+        return self._odom
+
+    def pose(self):
+        pose = self._told().pose.pose
+        return planar(pose.position, pose.orientation)
+
+    def velocity(self):
+        twist = self._told().twist.twist
+        return Velocity(twist.linear.x, twist.angular.z)
+
+    def send(self, velocity):
+        twist = Twist(Vector3(velocity.linear_mps), Vector3(z=velocity.angular_radps))
+        self._loop.call_soon_threadsafe(self._out.publish, twist)
+'''
 
 
 @dataclass
@@ -41,8 +92,8 @@ class Parts:
     settings: Path
     port: int
     """Of the page."""
-    robot: Path | None = None
-    """What the robot behind Nav2 is like; None: it is simulated in the engine's process."""
+    robot: str = ""
+    """What the robot is like that is another process; empty: it is simulated in the engine's."""
     door: Path = Path()
     """Settings of a simulator that can be seen without the router, by `eye`."""
     eye: NetworkSettings = field(default_factory=NetworkSettings)
@@ -74,7 +125,7 @@ class Parts:
     async def start(self, part: str, *options: str) -> None:
         """Start a part anew; `engine`, the engine of one robot of the team (`engine Leo`), or a node."""
         name, _, one = part.partition(" ")
-        driven = [] if not self.robot else ["--robot", ROBOT, "--class", str(self.robot)]
+        driven = [] if not self.robot else ["--robot", ROBOT, "--class", self.robot]
         words = {
             "router": ["node", "router"],
             "simulator": ["robot", "simulate", "--world", "nursing-home", "--speed", self.speed],
@@ -140,7 +191,12 @@ class Parts:
 
 @asynccontextmanager
 async def parts(
-    folder: Path, *names: str, speed: str = "1", beside: bool = False, settings_text: str = ""
+    folder: Path,
+    *names: str,
+    speed: str = "1",
+    beside: bool = False,
+    driver: bool = False,
+    settings_text: str = "",
 ) -> AsyncIterator[Parts]:
     """These parts, up and running; where a router is among them, all meet there and nowhere else.
 
@@ -149,6 +205,7 @@ async def parts(
         names: Which.
         speed: Of a simulator that is a part.
         beside: Whether engine and simulator hear each other without the router, and each other only.
+        driver: Whether the robot is not behind Nav2: a driver in the engine's process sends it velocities.
         settings_text: What all have in their settings besides.
     """
     at = f"tcp/127.0.0.1:{free_port()}"
@@ -159,15 +216,8 @@ async def parts(
         f"network: {{domain: {DOMAIN}, role: {role}, connect: [{at}], interface: ''}}\n{settings_text}",
         encoding="utf-8",
     )
-    robot = folder / "robot.yaml" if "simulator" in names else None
     seen = f"tcp/127.0.0.1:{free_port()}"
-    if robot is not None:
-        robot.write_text(ROBOT_FILE, encoding="utf-8")
-        (folder / "door.yaml").write_text(
-            f"network: {{domain: {DOMAIN}, listen: [{seen}], interface: '',"
-            f" connect: [{'' if beside else at}]}}\n",
-            encoding="utf-8",
-        )
+    robot = _robot(folder, seen, "" if beside else at, driver=driver) if "simulator" in names else ""
     eye = NetworkSettings(domain=DOMAIN, role="client", connect=(seen,), interface="")
     made = Parts(folder, settings, free_port(), robot, folder / "door.yaml", eye, speed)
     if beside:
@@ -196,6 +246,17 @@ async def parts(
             for robot_name in robots or [ROBOT]:
                 await made.until_met(robot_name)
         yield made
+
+
+def _robot(folder: Path, seen: str, at: str, *, driver: bool) -> str:
+    """Write what a robot is like that is another process, and its door; where that is."""
+    (folder / "door.yaml").write_text(
+        f"network: {{domain: {DOMAIN}, listen: [{seen}], interface: '', connect: [{at}]}}\n", encoding="utf-8"
+    )
+    (folder / "robot.yaml").write_text(ROBOT_FILE, encoding="utf-8")
+    text = DRIVER_FILE.replace("DOMAIN", str(DOMAIN)).replace("BASE", seen)
+    (folder / "driver.py").write_text(text, encoding="utf-8")
+    return f"{folder / 'driver.py'}:Driver" if driver else str(folder / "robot.yaml")
 
 
 async def until_open(address: str) -> None:

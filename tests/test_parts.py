@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import math
 from contextlib import AsyncExitStack
 from pathlib import Path
 from typing import Any, Self
@@ -74,6 +75,25 @@ async def test_a_robot_whose_engine_hears_no_page_any_more_stands_and_a_stop_of_
         await page.until("stop", "state", is_="at_rest")
         await asyncio.sleep(2.0)
         assert eye.speed_mps < 0.02 and system.begun("NavigateTo") == 1
+
+
+async def test_a_base_that_hung_stands_when_it_is_back_and_the_page_says_meanwhile_that_it_does_not_answer(
+    tmp_path: Path,
+) -> None:
+    async with driving(tmp_path, driver=True) as (system, page, eye):
+        system.freeze("simulator")
+        await page.until("trouble", is_="silent", within_s=2.0)
+        where_m = eye.where_m
+        system.thaw("simulator")
+        await page.until("trouble", is_="")
+        assert math.dist(eye.where_m, where_m) < 0.05 and eye.speed_mps < 0.02
+        await system.operator.until(lambda: system.heard("My base does not answer."))
+
+        system.freeze("engine")
+        await page.until("connection", is_="lost", within_s=3.0)
+        system.thaw("engine")
+        await page.until("connection", is_="here")
+        assert system.begun("NavigateTo") == 1
 
 
 @pytest.mark.timeout(300)

@@ -28,6 +28,7 @@ from parley.messages.ros_robot import (
     GetStateRequest,
     Release,
     Twist,
+    Vector3,
     get_state,
     navigate_to_pose,
 )
@@ -303,6 +304,27 @@ async def test_a_simulated_robot_needs_no_messages_of_a_detector_and_its_nodes_s
     assert [one["why"] for one in logs if "detector" in one["event"]] == [
         "ROS does not know vision_msgs/msg/Detection2DArray"
     ]
+
+
+async def test_a_base_that_hung_does_nothing_of_what_it_was_told_meanwhile_and_then_obeys_again() -> None:
+    async with Hosted(Peer("jazzy", 1.0)) as transport:
+        base = transport._peer.nav2.robot
+        drive = transport.publisher(TOPICS.topic(TOPICS.cmd_vel, Twist))
+        permit = transport.publisher(TOPICS.topic(TOPICS.hold, Bool))
+
+        def told() -> bool:
+            drive.publish(Twist(Vector3(0.2)))
+            permit.publish(Bool(False))
+            return base.velocity().linear_mps > 0.1
+
+        await until(told)
+        drive.publish(Twist(Vector3(0.2)))
+        permit.publish(Bool(False))
+        assert blocked(base, 1.0) < 1.0
+        before = base.pose()
+        await asyncio.sleep(0.25)  # it reads what came
+        assert base.pose().distance_to(before) < 0.005
+        await until(told)
 
 
 async def test_where_the_release_is_another_one_it_says_that_it_is_set_up_wrongly() -> None:

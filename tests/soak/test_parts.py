@@ -69,11 +69,12 @@ class Eye:
     """Sees the robot itself, whoever else does not."""
 
     def __init__(self) -> None:
-        self.speed_mps, self._changed = 0.0, asyncio.Event()
+        self.speed_mps, self.where_m, self._changed = 0.0, (0.0, 0.0), asyncio.Event()
 
     def on_odom(self, told: Odometry) -> None:
         """It tells twenty times a second how fast it is."""
         self.speed_mps = abs(told.twist.twist.linear.x)
+        self.where_m = told.pose.pose.position.x, told.pose.pose.position.y
         self._changed.set()
 
     async def until(self, condition: Callable[[float], bool], within_s: float) -> None:
@@ -85,10 +86,12 @@ class Eye:
 
 
 @asynccontextmanager
-async def driving(folder: Path, *, beside: bool = False) -> AsyncIterator[tuple[Parts, Page, Eye]]:
-    """All parts up, and the robot under way; `beside`: its engine reaches it without the router."""
+async def driving(
+    folder: Path, *, beside: bool = False, driver: bool = False
+) -> AsyncIterator[tuple[Parts, Page, Eye]]:
+    """All parts up, and the robot under way; see `parts`."""
     async with AsyncExitStack() as stack:
-        system = await stack.enter_async_context(parts(folder, *EVERY, beside=beside))
+        system = await stack.enter_async_context(parts(folder, *EVERY, beside=beside, driver=driver))
         page = Page(
             await stack.enter_async_context(
                 httpx.AsyncClient(base_url=f"http://127.0.0.1:{system.port}", timeout=10)
@@ -97,7 +100,8 @@ async def driving(folder: Path, *, beside: bool = False) -> AsyncIterator[tuple[
         eye, end = Eye(), await stack.enter_async_context(transport_of(SystemConfig(network=system.eye)))
         await end.subscribe(ODOM, eye.on_odom)
         await page.until("connection", is_="here")
-        system.operator.say("go to the fridge, then check if there is a water bottle", ROBOT)
+        look = "" if driver else ", then check if there is a water bottle"
+        system.operator.say(f"go to the fridge{look}", ROBOT)
         await system.operator.until(lambda: system.begun("NavigateTo") == 1)
         await eye.until(lambda speed_mps: speed_mps > 0.1, 10.0)
         yield system, page, eye

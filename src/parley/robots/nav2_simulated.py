@@ -70,7 +70,8 @@ class SimulatedNav2:
         self._clock = WallClock()
         self._action = navigate_to_pose(self._names.name(action), release)
         self._held: bool | None = None
-        self._held_s = 0.0
+        self._held_s = self._deaf_s = 0.0
+        self._beat_s = self._clock.wall_s()
         self._pressed = False
         self.lifecycle = ros_robot.ACTIVE
         """How far its navigator says it is."""
@@ -95,8 +96,8 @@ class SimulatedNav2:
             heard = await transport.subscribe(topic, handler)
             stack.push_async_callback(heard.close)
         await stack.enter_async_context(self._serving())
-        telling = asyncio.create_task(self._tell(), name=f"nav2 of {self.robot.name}")
-        stack.push_async_callback(_ended, telling)
+        for work in (self._tell(), self._watch()):
+            stack.push_async_callback(_ended, asyncio.create_task(work, name=f"nav2 of {self.robot.name}"))
         return self
 
     async def __aexit__(self, *exc: Any) -> None:
@@ -133,17 +134,34 @@ class SimulatedNav2:
 
     # -- the drive ---------------------------------------------------------------------------------------
 
+    async def _watch(self) -> None:
+        """Shut the lock in time, whatever else takes its time."""
+        while True:
+            self._is_deaf()
+            self._beat_s = self._clock.wall_s()
+            self._lock()
+            await asyncio.sleep(TELL_S)
+
+    def _is_deaf(self) -> bool:
+        """Whether this hung until a moment ago: what it may read now is old, and moves nothing any more."""
+        now_s = self._clock.wall_s()
+        if now_s - self._beat_s > LOCK_S:
+            self._deaf_s = now_s + LOCK_S
+        return now_s < self._deaf_s
+
     def _on_velocity(self, told: ros_robot.Twist | ros_robot.TwistStamped) -> None:
         twist = told.twist if isinstance(told, ros_robot.TwistStamped) else told
         velocity = Velocity(twist.linear.x, twist.angular.z)
         if velocity != Velocity():
-            self.robot.drive(velocity)
+            if not self._is_deaf():
+                self.robot.drive(velocity)
         elif not self.robot.stopped:  # no command any more, so that it brakes, and not one to roll out
             self.robot.halt()
             self.robot.release()
 
     def _on_hold(self, told: ros_robot.Bool) -> None:
-        self._held, self._held_s = told.data, self._clock.wall_s()
+        if told.data or not self._is_deaf():
+            self._held, self._held_s = told.data, self._clock.wall_s()
         self._lock()
 
     def _lock(self) -> None:
@@ -179,7 +197,6 @@ class SimulatedNav2:
     async def _tell(self) -> None:
         beat = 0
         while True:
-            self._lock()
             self._tell_place(latched=beat % LATCH_EVERY == 0)
             if beat % SCAN_EVERY == 0:
                 self._tell_scan()
