@@ -399,6 +399,25 @@ def test_the_page_can_be_followed_with_the_simulated_robot(tmp_path: Path) -> No
     assert checked.exit_code == 0 and checked.output.count("kept ") == 5, checked.output
 
 
+class LateMap(Hosted):
+    """Hands the map out only a while after all else was heard."""
+
+    async def subscribe(self, topic: Topic[M], handler: Any, **more: Any) -> Any:
+        def late(message: Any) -> None:
+            asyncio.get_running_loop().call_later(1.5, handler, message)
+
+        return await super().subscribe(topic, late if topic.name.endswith("map") else handler, **more)
+
+
+async def test_a_map_that_comes_late_is_waited_for() -> None:
+    robot = Nav2Robot("A", lambda: LateMap(Peer("jazzy", QUICK)), Nav2Setup(topics=TOPICS))
+    try:
+        await robot.open()
+        assert robot.own_map is not None
+    finally:
+        robot.close()
+
+
 async def test_a_robot_that_says_nothing_of_itself_is_not_taken_for_ready(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -140,6 +140,6 @@ class Hearing:
 
 def _back(alone_s: float) -> Sentence:
     return sentence(
-        "I heard no page and no terminal for {seconds} seconds. I go on now, unless somebody stopped me.",
+        "I heard no page and no terminal for {seconds} seconds. That does not hold me any more.",
         seconds=f"{alone_s:.1f}",
     )

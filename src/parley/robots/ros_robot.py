@@ -32,7 +32,7 @@ from parley.robots.own import RobotBase
 from parley.robots.ros_senses import SILENT, RosTopics, Senses, velocities_heard, velocities_taken
 from parley.robots.ros_values import header, stamped
 from parley.sentences import sentence
-from parley.transport.base import Outcome, Publisher, SentGoal, Transport
+from parley.transport.base import Outcome, Publisher, SentGoal, Transport, absolute
 from parley.world.geometry import Pose2D
 
 if TYPE_CHECKING:
@@ -48,6 +48,10 @@ LOOP_S: Final = 0.5
 """A program whose loop stands for so long does not watch its robot."""
 ASKING_S: Final = 2.0
 READY_S: Final = 10.0
+SEEN_S: Final = 1.0
+"""After this it is seen whether somebody tells a map."""
+MAP_S: Final = 3.0
+"""A map that somebody tells is waited for so long; without it a robot drives by that of its place."""
 _ENDING_S: Final = 3.0
 _LOOK_S: Final = 0.02
 _LONG_S: Final = 3600.0
@@ -285,6 +289,18 @@ class RosRobot(RobotBase):
             raise UnavailableError(
                 f"{self.name} does not say where it is: {self._senses.missing()}"
             ) from error
+        await self._hear_map(transport)
+
+    async def _hear_map(self, transport: Transport) -> None:
+        """Wait for the map, if there is one: it is large, and DDS hands out late what was said before."""
+        wanted = absolute(self._names.name(self._names.map))
+        for wait_s in (SEEN_S, MAP_S):
+            with suppress(TimeoutError):
+                async with asyncio.timeout(wait_s):
+                    await self._senses.mapped.wait()
+                return
+            if not any(end.name == wanted and end.role == "publisher" for end in transport.endpoints()):
+                return
 
     async def _end(self) -> None:
         transport, self._transport, self._cmd_vel = self._transport, None, None

@@ -181,6 +181,7 @@ class Senses:
         self.emergency = False
         self.ready = asyncio.Event()
         """It is known where the robot is and how fast."""
+        self.mapped = asyncio.Event()
 
     async def listen(self, transport: Transport) -> None:
         """Hear of everything but pictures, which are heard while somebody wants them."""
@@ -338,6 +339,7 @@ class Senses:
     def _on_map(self, told: ros_robot.OccupancyGrid) -> None:
         try:
             self.occupancy = map_of(told, self._topics.map)
+            self.mapped.set()
         except TypeMismatchError as error:
             log.warning("the robot's map cannot be used", why=str(error))
 
