@@ -76,7 +76,7 @@ async def test_one_page_is_enough_and_when_all_are_silent_it_stands_until_one_is
         assert ada.stands, "what was pressed meanwhile may still be on its way"
         await ada.pulses("a", 0.6)
         assert not ada.stands
-        assert "I go on now" in ada.told[1]
+        assert "That does not hold me any more" in ada.told[1]
 
 
 async def test_a_stop_that_was_pressed_meanwhile_wins_and_comes_with_the_first_sign_of_the_page() -> None:
