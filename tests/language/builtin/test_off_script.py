@@ -506,6 +506,20 @@ def test_where_to_look_for_what_nobody_knows_is_asked_and_answered(
     assert [*dict.fromkeys(told)] == where
 
 
+def test_it_is_what_was_wanted_and_not_where_that_lies() -> None:
+    kept = (MemoryEntry(name="coat_location", data="the coat is in bay 2"),)
+    past = (
+        Turn("operator", "fetch my coat"),
+        Turn("assistant", "Where is it?"),
+        Turn("operator", "in bay 2"),
+    )
+    made = ENGINE.decide(
+        situation("bring it to bay A", objects=SHELVES, catalogue=SHIPPED, memory=kept, history=past)
+    )
+    assert isinstance(made, Do)
+    assert "coat" in {str(v) for deed in made.deeds if deed.frame == "FIND" for v in deed.arguments.values()}
+
+
 @pytest.mark.parametrize(
     ("before", "said", "answer"),
     [
@@ -513,6 +527,7 @@ def test_where_to_look_for_what_nobody_knows_is_asked_and_answered(
         ("go to the ramp", "no sorry, I mean the bay 2", "I will go to bay 2."),
         ("where is the ramp?", "the bay 2, I mean", "Bay 2 is"),
         ("hello", "good. and the bay 2, is it clear?", "Shall I go and look?"),
+        ("hello", "Hi, I am Kim and I am by bay 2", "I will remember that the operator is by bay 2."),
     ],
 )
 def test_who_or_what_is_meant_may_be_said_afterwards(before: str, said: str, answer: str) -> None:

@@ -519,7 +519,8 @@ def spoken_of(
             thing = next(
                 (p for p in known if not _is_called(p) and _tells_of(p, turn.content, low, bare)), None
             )
-        if _IT & low and names:  # "bring it to the gate" speaks of something else than the gate
+        spot = tokens[:1] and tokens[0].low in _AT  # "on the desk" is where something else is
+        if (_IT & low or spot) and names:  # "bring it to the gate" speaks of something else than the gate
             place = place or names[-1].things[0]
         elif thing is None and not open_:
             most = most_asked(tokens, situation, lexicon)
@@ -534,6 +535,7 @@ def spoken_of(
 
 
 _IT: Final = frozenset({"it", "them", "one"})
+_AT: Final = frozenset({"on", "in", "at", "by", "near", "under", "behind"})
 
 
 def _tells_of(place: Place, text: str, low: set[str], bare: bool) -> bool:

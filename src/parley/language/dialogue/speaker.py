@@ -24,7 +24,8 @@ _AT: Final = (
     r"(?P<side>at|in|on|near|by|beside|next to|close to|in front of|behind|around|inside) "
 )
 _HERE: Final = re.compile(
-    r"(?:good (?:morning|day|afternoon|evening)(?: \w+)?\W+)?(?:(?:my name is|this is|it's) \w+\W+)?"
+    r"(?:(?:good (?:morning|day|afternoon|evening)(?: \w+)?|hello|hi|hey)\W+)?"
+    r"(?:(?:my name is|this is|it's|i'm|i am) \w+(?: and)?\W+)?"
     r"(?:(?:ok|okay|well|oh|yes|hello|hi|hey|sorry|and|so|please)\W+)*(?:i'm|i am|we're|we are) "
     r"(?:(?:still|now|just|currently) )*(?:(?:sitting|standing|lying|waiting|working|resting|staying) )?"
     rf"{_AT}(?P<where>.+)",
@@ -85,7 +86,7 @@ def answered_place(situation: Situation, lexicon: Lexicon, again: Again) -> Deci
     if last not in ("", asked.words) and _TOLD.match(whole):  # "where is Kim?", "she is at the desk"
         return Remember((told,))
     made = again(asked.words, told=(MemoryEntry(name=told.name, data=told.text),))
-    if not isinstance(made, Do | Ask) or (isinstance(made, Ask) and not (made.where or made.choices)):
+    if not isinstance(made, Do | Ask) or made == again(asked.words):  # nothing came of it
         return None
     sure = isinstance(made, Ask) or all(deed.frame != "FIND" for deed in made.deeds)  # else it shows
     return replace(made, told=(*([told] if sure else []), *made.told), about=asked.words)
@@ -101,7 +102,8 @@ def _who(situation: Situation) -> str:
 
 def _told(who: str, side: str, where: str) -> Told:
     key = "_".join(re.findall(r"\w+", who.lower().removeprefix("the ")))[:140]
-    return Told(f"{key}_location", f"{who} is {side.lower()} {with_article(where)}", f"Where {who} is")
+    be = "are" if who.startswith("the ") and who.endswith("s") and not who.endswith("ss") else "is"
+    return Told(f"{key}_location", f"{who} {be} {side.lower()} {with_article(where)}", f"Where {who} {be}")
 
 
 def _place(words: str, situation: Situation, lexicon: Lexicon) -> str | Ask | None:
