@@ -11,7 +11,7 @@ import pytest
 
 from parley.agents.audit_log import AuditLog
 from parley.agents.memory import MemoryNode
-from parley.errors import FailureCode
+from parley.errors import FailureCode, StoreError
 from parley.gate.audit_store import AuditStore
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.memory.store import MemoryStore
@@ -95,6 +95,15 @@ async def test_a_robot_added_by_name_stays_until_it_is_taken_off(tmp_path: Path)
         assert [robot["name"] for robot in (await rig.http.get("/api/robots")).json()] == ["Bob"]
         assert (await rig.http.delete("/api/robots/Bob")).status_code == 200
         assert (await rig.http.get("/api/robots/Bob")).status_code == 404
+
+
+async def test_a_second_page_on_the_same_folder_is_refused_and_told_what_to_do(tmp_path: Path) -> None:
+    async with served(data_dir=tmp_path):
+        with pytest.raises(StoreError, match=r"is in use by process .* End that one first"):
+            async with served(data_dir=tmp_path):
+                pass
+    async with served(data_dir=tmp_path):  # it is free again
+        pass
 
 
 @pytest.mark.parametrize(

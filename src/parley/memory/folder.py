@@ -32,19 +32,20 @@ _BEHIND_TEXT: Final = 1 << 30
 
 
 @contextmanager
-def held_folder(folder: Path, *, unix_ms: int) -> Iterator[None]:
+def held_folder(folder: Path, *, unix_ms: int, name: str = _NAME) -> Iterator[None]:
     """Hold a data folder; the system gives it back when this process ends, however it ends.
 
     Args:
         folder: Made if it is missing.
         unix_ms: Now, for whoever asks who holds it.
+        name: File that is locked: parts that can share a folder, as the page with the rest, have one each.
 
     Raises:
         StoreError: It cannot be written to, or another process holds it; says which one, and what to do.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        file = (folder / _NAME).open("a+", encoding="utf-8")
+        file = (folder / name).open("a+", encoding="utf-8")
     except OSError as error:
         raise StoreError(
             f"the data folder {folder} cannot be written to ({error.strerror}); "

@@ -18,6 +18,7 @@ from parley.errors import StoreError
 from parley.gate.stop_line import StopLine
 from parley.gate.stop_words import STOP_WORDS, has_stop_word
 from parley.language.llm.in_use import EngineInUse
+from parley.memory.folder import held_folder
 from parley.messages.chat import ChatFeedback, ChatImage
 from parley.messages.map import MapView
 from parley.messages.principal import Principal, person
@@ -114,6 +115,9 @@ class Backend:
     async def _open(self) -> None:
         enter = self._stack.enter_async_context
         folder = self.config.data_dir
+        if folder is not None:
+            held = held_folder(folder, unix_ms=self.clock.unix_ms(), name="page-in-use")
+            self._stack.enter_context(held)
         self.store = await enter(await WebStore.open(folder / "web.db" if folder else ":memory:", self.clock))
         people = await enter(await PeopleStore.open(folder / FILE if folder else ":memory:", self.clock))
         await self.sessions.restore(people)
