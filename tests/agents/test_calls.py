@@ -130,9 +130,10 @@ async def test_who_waits_long_calls_somebody_and_then_somebody_else_until_it_is_
             assert first.empty() and second.empty()
 
 
-async def test_who_asks_which_of_several_things_an_order_means_waits_too() -> None:
+@pytest.mark.parametrize("more", [{"choices": ("red", "blue")}, {"asks": True}])
+async def test_who_asks_for_what_an_order_lacks_waits_too(more: dict[str, Any]) -> None:
     got = Queue[dict[str, Any]]()
-    which = ChatFeedback(message="Which box?", targets=("Ada",), choices=("red", "blue"), reply_to="m1")
+    which = ChatFeedback(message="Which box?", targets=("Ada",), reply_to="m1", **more)
     with web_hook(got) as address:
         async with ward(CallSettings(after_s=60, webhook=address)) as here:
             here.robots.tell(topics.CHAT_FEEDBACK, which)

@@ -25,6 +25,7 @@ from parley.messages.chat import (
     ChatFeedback,
     ChatInput,
     ChatRead,
+    LeftOpen,
     ReplyDraft,
     SystemCommand,
 )
@@ -677,6 +678,25 @@ async def test_a_no_to_which_one_is_meant_leaves_that_and_nothing_else(room: Roo
     room.observer.say("the left box", "A")
     (order,) = await room.orders()
     assert order.words == "the left box", "the order was given up, so this is a new one"
+
+
+@pytest.mark.parametrize(
+    "reply, asks",
+    [
+        (ChatAction(message_response="I do not know where you are. Which place is it near?"), True),
+        (ChatAction(message_response="Which one?", choices=("left box", "right box")), True),
+        (ChatAction(message_response="Tell me where that is.", left_open=LeftOpen(where="the cup")), True),
+        (ChatAction(message_response="I know of no “cup”. Please tell me where to find it."), True),
+        (ChatAction(message_response="Hello. What can I do for you?"), False),
+        (ChatAction(message_response="They asked “where?”"), False),
+        (ChatAction(message_response="I look. What else?", queue=(look(),)), False),
+    ],
+)
+async def test_a_reply_that_lacks_words_says_that_it_asks(room: Room, reply: ChatAction, asks: bool) -> None:
+    room.language.will("interpret", reply)
+    room.observer.say("come to me", "A")
+    await room.reply()
+    assert room.observer.said[-1].asks_back is asks
 
 
 async def test_an_order_is_called_by_its_words_and_not_by_the_answer_to_which_one(room: Room) -> None:

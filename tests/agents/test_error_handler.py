@@ -16,11 +16,15 @@ from parley.demos.observer import Observer
 from parley.errors import FailureCode, LanguageError
 from parley.language.llm.scripted import ScriptedLanguage
 from parley.messages import topics
-from parley.messages.chat import ActionCall, ChatAction
+from parley.messages.chat import ActionCall, ChatAction, Flow, FlowIf
 from parley.messages.failure import ErrorHandlingMessage
+from parley.messages.incident import IncidentList
 from parley.messages.pvf import Parameter
-from parley.messages.status import PlanUpdate
+from parley.messages.ros import ChatRequest
+from parley.messages.status import ActorStatus, PlanUpdate
+from parley.messages.wire import decode
 from parley.transport.local import LocalTransport
+from tests.gate.test_cards import CATALOGUE, drive, find
 
 ASK = ChatAction(success=False, message_response="Which box do you mean?", choices=("red box", "blue box"))
 
@@ -113,6 +117,21 @@ async def test_after_three_questions_the_robot_is_held_and_what_remains_is_said(
     assert "look at box; look at door" in last
     (correction,) = room.corrections.seen
     assert (correction.success, [c.command for c in correction.system_cmd]) == (False, ["stop"])
+
+
+async def test_of_a_search_that_fails_people_read_the_step_that_it_is_made_for(room: Room) -> None:
+    room.observer.publish(topics.ACTOR_STATUS, ActorStatus(actor="A", catalogue=CATALOGUE))
+    search = find("box", "find the box")
+    drives = drive(reason="go to the box").model_copy(update={"flow": Flow(if_=FlowIf(step=7))})
+    room.language.will("resolve", ASK, ASK, ASK, ASK)
+    room.fail(action_called=search, umrf_queue=(drives,))
+    for count in (1, 2, 3):
+        await room.said(count)
+        room.observer.say("purple", "A", answer=True)
+    assert "Left to do: go to the box." in (await room.said(4))[3]
+    incident = await room.observer.transport.call(topics.GET_INCIDENTS, ChatRequest("{}"), timeout_s=5)
+    (found,) = decode(IncidentList, incident.response).incidents
+    assert found.label == "Go to “box”"
 
 
 async def test_attempts_count_on_when_the_repaired_step_fails_in_the_same_way(room: Room) -> None:

@@ -104,10 +104,18 @@ def test_of_what_is_cancelled_only_the_step_that_had_begun_is_reported() -> None
     assert [step.label for step in ended] == ["a"]
 
 
-def test_a_search_for_the_next_step_is_shown_only_where_it_has_something_to_say() -> None:
+def test_a_search_for_the_next_step_is_shown_as_that_step_and_tells_how_it_fares() -> None:
     def shown(*states: str) -> list[str]:
         one, two = (step("find", state).model_copy(update={"for_next": True}) for state in states)
         return [f"{line.label} {line.state}" for line in lines_of([one, step("go"), two, step("look")])]
 
     assert shown("running", "queued") == ["go running", "look queued"]
-    assert shown("finished", "failed") == ["go queued", "find failed", "look queued"]
+    assert shown("finished", "failed") == ["go queued", "look failed"]
+
+
+def test_what_could_not_be_found_is_reported_as_the_step_that_needs_it() -> None:
+    def found(state: str) -> PlanUpdate:
+        return plan(step("find", state).model_copy(update={"for_next": True}), step("go"))
+
+    assert [row.label for row in compare(found("running"), found("failed"))[1]] == ["go"]
+    assert compare(found("queued"), found("finished")) == (False, [])

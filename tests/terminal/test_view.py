@@ -124,6 +124,11 @@ def test_a_question_ends_when_it_is_taken_back_and_not_with_other_words(view: Op
     assert robot.question.id == "q1"
 
 
+def test_a_reply_that_asks_for_words_is_shown_as_a_question(view: OperatorView) -> None:
+    (line,) = view.on_feedback(ChatFeedback(message="Where to?", targets=("Ada",), asks=True))
+    assert line.kind == "asked"
+
+
 def test_an_answer_that_offers_choices_is_shown_as_a_question_but_awaits_no_answer(
     view: OperatorView,
 ) -> None:

@@ -80,6 +80,46 @@ async def test_of_two_answers_at_once_one_counts_and_so_it_is_with_what_is_offer
         assert [heard.message for heard in rig.robots.inputs] == [again[0]["text"]]
 
 
+@pytest.mark.parametrize("more", [{"asks": True}, {"choices": ("red", "blue")}])
+async def test_a_reply_that_asks_back_is_open_until_the_robot_is_told_more_and_what_is_told_is_an_order(
+    more: dict[str, Any],
+) -> None:
+    async with served("Ada", "Bob") as rig:
+        page = await rig.page()
+        await rig.http.post("/api/chat", json=message("m1", "bring it", "Ada"))
+        await rig.http.post("/api/chat", json=message("m2", "where are you?", "Ada"))
+        rig.robots.say("Where shall I bring it?", reply_to="m1", **more)
+        rig.robots.say("In the hall.", reply_to="m2")  # it was asked before that was said
+        await until_it_heard(page, 4)
+        asked = page.of("chat")[2]["entry"]
+        assert asked["question"] == "open"
+        await rig.http.post("/api/chat", json=message("m3", "go home", "Bob"))
+        await rig.http.post("/api/chat", json=message("m4", "to the red box", "Ada", reply_to=asked["id"]))
+        await rig.heard()
+        assert [(s.message, s.type, s.reply_to) for s in rig.robots.inputs[2:]] == [
+            ("go home", "request", ""),
+            ("to the red box", "request", ""),
+        ]
+        (entry,) = [
+            one for one in (await rig.http.get("/api/chat")).json()["entries"] if one["id"] == asked["id"]
+        ]
+        assert (entry["question"], entry["answer_id"]) == ("answered", "m4")
+
+
+async def test_a_reply_that_asks_back_is_settled_by_the_next_reply_to_what_was_said_elsewhere() -> None:
+    async with served("Ada", "Bob") as rig:
+        page = await rig.page()
+        rig.robots.say("Where shall I bring it?", asks=True)
+        await until_it_heard(page, 1)
+        await rig.http.post("/api/chat", json=message("m1", "Ada, to the red box", "Bob"))
+        rig.robots.say("I will bring it to the red box.", reply_to="m1")
+        await until_it_heard(page, 4)
+        assert [(one["entry"]["message"], one["entry"]["question"]) for one in page.of("chat")][-2:] == [
+            ("Where shall I bring it?", "answered"),
+            ("I will bring it to the red box.", ""),
+        ]
+
+
 async def test_a_draft_grows_and_is_replaced_by_the_reply_under_the_same_key() -> None:
     async with served("Ada") as rig:
         page = await rig.page()

@@ -210,13 +210,13 @@ export const incident = (part: Partial<Incident> & { id: string }): Incident => 
   graph_name: 'plan_1',
   step: { GoTo: { input_parameters: {}, output_parameters: {}, reason: 'go to the box' } } as unknown as Incident['step'],
   code: 'ambiguous',
+  label: '',
   message: 'Two places fit “box”.',
   attempts: [{ kind: 'asked', asked: 'Which box?', answered: 'the red one', tried: 'I take the red box.', unix_ms: 1000 }],
   questions: 1,
   ending: 'open',
   opened_unix_ms: 1000,
-  closed_unix_ms: 0,
-  note: '',
+  ...{ closed_unix_ms: 0, note: '' },
   ...part,
 });
 

@@ -296,7 +296,7 @@ class Heard:
 
 
 def labels(steps: Sequence[ActionCall] | Sequence[PlanStep]) -> list[str]:
-    """What each step does, in words; a search for the next one where it has something of its own to say."""
+    """What each step does, in words; a search for the next one belongs to that one."""
     return [_label(step) for step in steps if not _is_hidden(step)]
 
 
@@ -317,7 +317,7 @@ def _done(steps: Sequence[PlanStep]) -> dict[str, Any]:
 
 
 def _is_hidden(step: ActionCall | PlanStep) -> bool:
-    return isinstance(step, PlanStep) and step.for_next and step.state not in ("failed", "waiting", "stopped")
+    return isinstance(step, PlanStep) and step.for_next
 
 
 def _label(step: ActionCall | PlanStep) -> str:

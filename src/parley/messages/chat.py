@@ -104,6 +104,13 @@ class ChatFeedback(Payload):
     """Ours: an action that is carried out tells it."""
     images: tuple[ChatImage, ...] = ()
     """Ours: what it speaks of, as the robot saw it."""
+    asks: bool = False
+    """Ours, of a `response`: an order lacks something, and whatever is said next may tell it."""
+
+    @property
+    def asks_back(self) -> bool:
+        """Whether a reply asks for more: what is said next answers it, though it is no `response`."""
+        return self.type == "response" and (self.asks or bool(self.choices))
 
 
 class ReplyDraft(Payload):

@@ -9,6 +9,7 @@ from pydantic import Field
 from parley.errors import FailureCode
 from parley.messages.base import Payload
 from parley.messages.chat import ActionCall
+from parley.messages.plain import ShownText
 
 __all__ = ["GetIncidents", "Incident", "IncidentAttempt", "IncidentList"]
 
@@ -35,6 +36,8 @@ class Incident(Payload):
     graph_name: str = ""
     step: ActionCall
     """The step that failed."""
+    label: ShownText = ""
+    """What people read of it in the plan: of a search, the step that it is made for; empty: not known."""
     code: FailureCode = FailureCode.INTERNAL
     message: str = ""
     """What went wrong, in plain words."""

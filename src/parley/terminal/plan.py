@@ -48,7 +48,7 @@ STATES: Final = {
 }
 """Step state in words."""
 _STYLES = {"running": "class:now", "finished": "class:done", "failed": "class:bad", "waiting": "class:ask"}
-_ALONE = ("failed", "waiting", "paused", "stopped")
+_TELLING = ("running", "failed", "waiting", "paused", "stopped")
 _MAX_LABEL_CHARS = 60
 
 
@@ -96,16 +96,16 @@ def is_over(step: PlanStep) -> bool:
 
 
 def lines_of(steps: Sequence[PlanStep]) -> list[PlanStep]:
-    """The steps that are shown: a search for the next one only where it has something to say of its own."""
+    """The steps that are shown: until it begins, a step fares as the search that is made for it alone."""
     lines: list[PlanStep] = []
-    begun = False
+    search: PlanStep | None = None
     for step in steps:
-        if step.for_next and step.state not in _ALONE:
-            begun = begun or step.state == "running"
+        if step.for_next:
+            search = step if step.state in _TELLING else search
             continue
-        starts = begun and step.state == "queued"
-        lines.append(step.model_copy(update={"state": "running"}) if starts else step)
-        begun = False
+        tells = search is not None and step.state == "queued"
+        lines.append(step.model_copy(update={"state": search.state}) if search and tells else step)
+        search = None
     return lines
 
 
@@ -131,18 +131,19 @@ def plan_rows(
 
 
 def compare(before: PlanUpdate | None, after: PlanUpdate) -> tuple[bool, list[PlanStep]]:
-    """Whether `after` plans something that `before` did not, and which steps ended in between.
+    """Whether `after` plans something that `before` did not, and which of the steps shown ended since.
 
     Steps that were never begun and will not be are no news: whoever cancelled them knows.
     """
-    old = list(before.steps) if before is not None else []
+    old = lines_of(before.steps) if before is not None else []
+    new = lines_of(after.steps)
     old_keys = [_key(step) for step in old]
-    new_keys = [_key(step) for step in after.steps]
+    new_keys = [_key(step) for step in new]
     same_graph = before is not None and before.graph_name == after.graph_name
     is_new = bool(new_keys) and not (same_graph and _contains(old_keys, new_keys))
     were_open = {(*_key(step), step.node): step.state for step in old if not is_over(step)}
     ended: list[PlanStep] = []
-    for step in filter(is_over, after.steps):
+    for step in filter(is_over, new):
         was = were_open.get((*_key(step), step.node)) or were_open.get((*_key(step), ""))
         if was is not None and (was, step.state) != ("queued", "stopped"):
             ended.append(step)

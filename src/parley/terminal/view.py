@@ -194,7 +194,7 @@ class OperatorView:
         footnote = " · ".join(filter(None, told))
         return [
             Line(
-                "asked" if feedback.choices else _KINDS[feedback.type],
+                "asked" if feedback.choices or feedback.asks_back else _KINDS[feedback.type],
                 in_language(feedback.message, self.language),
                 speaker=", ".join(feedback.targets) or "Parley",
                 choices=self.choices(feedback.choices),
@@ -226,8 +226,8 @@ class OperatorView:
         if was != "idle" and message.state == "idle":
             robot.pending.clear()
         is_new, ended = compare(before, message)
-        lines = [Line("step", step_row(step, self.language)) for step in lines_of(ended)]
-        to_come = [step for step in message.steps if not is_over(step)]
+        lines = [Line("step", step_row(step, self.language)) for step in ended]
+        to_come = [step for step in lines_of(message.steps) if not is_over(step)]
         if is_new and to_come and message.state != "awaiting_approval":
             lines += self._plan(robot, to_come)
         return lines

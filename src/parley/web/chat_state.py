@@ -53,6 +53,8 @@ class ChatBook:
         self.next_seq = max((entry.seq for entry in self.entries.values()), default=0) + 1
         self._asked_as: dict[str, str] = {}
         """Key of an open question -> its id on the wire, perhaps empty."""
+        self._left_open: dict[str, None] = {}
+        """Keys of replies that ask for more: whatever is said next to the robot settles them."""
         self._said_as: dict[str, str] = {}
         """Id of a message on the wire -> key of its entry, where they differ."""
         self._repeats = Repeats()
@@ -131,7 +133,7 @@ class ChatBook:
         for message in composed.messages:
             if message.id != composed.entry.id:
                 self._said_as[message.id] = composed.entry.id
-        for question in composed.answered:
+        for question in (*composed.answered, *self._left_open_by(composed.entry.targets)):
             self._settle(question, answer_id=composed.entry.id)
 
     def on_input(self, said: ChatInput, *, unix_ms: int) -> None:
@@ -159,7 +161,7 @@ class ChatBook:
                 reply_to=answered[0] if answered else "",
             )
         )
-        for question in answered:
+        for question in (*answered, *self._left_open_by(said.targets)):
             self._settle(question, answer_id=key)
 
     # -- what robots say -------------------------------------------------------------------------------
@@ -188,12 +190,14 @@ class ChatBook:
                 sources=feedback.sources,
                 images=self._keep_pictures(key, feedback.images) if feedback.images else (),
                 engine=_short(feedback.engine),
-                question="open" if feedback.type == "request" else "",
+                question="open" if feedback.type == "request" or feedback.asks_back else "",
                 reply_to=self._said_as.get(feedback.reply_to, feedback.reply_to),
             )
         )
         if feedback.type == "request":
             self._asked_as[key] = feedback.id
+        elif feedback.asks_back:
+            self._left_open[key] = None
 
     def on_draft(self, draft: ReplyDraft, *, unix_ms: int) -> None:
         """A reply grows; drafts come too late or not at all without doing harm."""
@@ -217,7 +221,8 @@ class ChatBook:
 
     def on_restart(self, robot: str) -> None:
         """A robot was started anew: it does not remember what it asked."""
-        for key in [key for key in self._asked_as if _awaits(self.entries.get(key), robot)]:
+        asked = [key for key in self._asked_as if _awaits(self.entries.get(key), robot)]
+        for key in (*asked, *self._left_open_by((robot,))):
             self._settle(key)
 
     # -- questions -------------------------------------------------------------------------------------
@@ -242,6 +247,10 @@ class ChatBook:
         waiting = [key for key in self._asked_as if _awaits(self.entries.get(key), robot)]
         return wanted if wanted in waiting else next(reversed(waiting), None)
 
+    def _left_open_by(self, robots: Sequence[str]) -> list[str]:
+        """The replies of robots that ask for more."""
+        return [key for key in self._left_open if any(_awaits(self.entries.get(key), one) for one in robots)]
+
     def _key_of_question(self, wire_id: str) -> str:
         return next((key for key, asked in self._asked_as.items() if asked and asked == wire_id), "")
 
@@ -254,6 +263,10 @@ class ChatBook:
         if feedback.closes and (key := self._key_of_question(feedback.closes)):
             self._settle(key)
         if feedback.type in ("request", "response"):
+            said = self.entries.get(self._said_as.get(feedback.reply_to, feedback.reply_to))
+            for key in self._left_open_by(feedback.targets) if feedback.type == "response" else ():
+                if said is None or said.seq > self.entries[key].seq:
+                    self._settle(key, answer_id=said.id if said is not None else "")
             for robot in feedback.targets:
                 nameless = [key for key, asked in self._asked_as.items() if not asked]
                 for key in [key for key in nameless if _awaits(self.entries.get(key), robot)]:
@@ -261,6 +274,7 @@ class ChatBook:
 
     def _settle(self, key: str, *, answer_id: str = "") -> None:
         self._asked_as.pop(key, None)
+        self._left_open.pop(key, None)
         entry = self.entries.get(key)
         if entry is not None and entry.question == "open":
             state = "answered" if answer_id else "closed"
@@ -283,7 +297,7 @@ class ChatBook:
         if len(self.entries) > 2 * KEPT_ENTRIES:
             ordered = sorted(self.entries.values(), key=lambda item: item.seq)
             for old in ordered[:-KEPT_ENTRIES]:
-                if old.id not in self._asked_as:
+                if old.id not in self._asked_as and old.id not in self._left_open:
                     del self.entries[old.id]
             kept = set(self.entries)
             self._said_as = {wire: key for wire, key in self._said_as.items() if key in kept}

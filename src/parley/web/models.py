@@ -129,7 +129,7 @@ class ChatEntry(WebModel):
     engine: str = ""
     """Which language engine worded it, where there are several."""
     question: Literal["", "open", "answered", "closed", "interrupted"] = ""
-    """For a `request` of a robot: whether it awaits an answer; `interrupted`: who asked was ended first."""
+    """Of what a robot asks, in a reply too: whether it awaits an answer; `interrupted`: who asked ended."""
     answer_id: str = ""
     """Key of the message that answered it."""
     reply_to: str = ""

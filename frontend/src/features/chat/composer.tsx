@@ -66,7 +66,10 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
   const known = useLive((live) => live.world.run !== '');
   const none = lost ? t('common:offline') : t(known ? 'writeNobody' : 'common:loading');
   const label = nobody ? none : t('writeTo', { names: nameList(chosen, i18n.language) });
-  useGrowing(input, draft.text, label);
+  const { question } = answering;
+  // Where nothing can be tapped, it says that the answer is to be written.
+  const hint = question && question.choices.length === 0 ? t('answerTo', { names: nameList(question.targets, i18n.language) }) : label;
+  useGrowing(input, draft.text, hint);
   return (
     <form
       className={css.form}
@@ -97,7 +100,7 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
           disabled={nobody}
           aria-label={label}
           title={t('sendHelp')}
-          placeholder={label}
+          placeholder={nobody ? label : hint}
           maxLength={4000}
           enterKeyHint="send"
           onChange={(event) => setDraft(key, { text: event.target.value })}

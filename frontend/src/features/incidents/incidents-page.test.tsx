@@ -55,6 +55,7 @@ describe('problems', () => {
 
   it('name the step by its reason, else by its action', () => {
     expect(stepInWords(incident({ id: 'a' }))).toBe('Go to the box');
+    expect(stepInWords(incident({ id: 'a', label: 'go to the large box' }))).toBe('Go to the large box');
     expect(stepInWords(incident({ id: 'a', step: { LookAround: {} } as never }))).toBe('Look around');
   });
 });

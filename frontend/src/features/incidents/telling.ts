@@ -10,8 +10,9 @@ export function merged(fetched: readonly Incident[], live: readonly Incident[], 
     .sort((a, b) => b.opened_unix_ms - a.opened_unix_ms);
 }
 
-/** What the step that went wrong was for. */
+/** What the step that went wrong was for; of records of old only what was called. */
 export function stepInWords(incident: Incident): string {
+  if (incident.label) return sentence(incident.label);
   const [[name, body] = ['', {}]] = Object.entries(incident.step);
   const reason: unknown = (body as { reason?: unknown }).reason;
   return typeof reason === 'string' && reason !== '' ? sentence(reason) : inWords(name);

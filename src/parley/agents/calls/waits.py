@@ -35,7 +35,7 @@ class Waits:
         self.questions = OpenQuestions()
         self._after_s = after_s
         self._which: Latest[str, ChatFeedback] = Latest()
-        """Replies that ask which of several things is meant, until the robot says or hears something else."""
+        """Replies that ask for what an order lacks, until the robot says or hears something else."""
         self._proposals: Latest[str, list[PlanProposal]] = Latest()
         self._since: dict[str, float] = {}
         self._called: set[tuple[str, int]] = set()
@@ -45,7 +45,7 @@ class Waits:
         self.questions.on_feedback(feedback)
         for robot in feedback.targets if feedback.type == "response" else ():
             self._which.pop(robot, None)
-            if feedback.choices:
+            if feedback.asks_back:
                 self._which[robot] = feedback
 
     def on_input(self, said: ChatInput) -> None:

@@ -230,9 +230,9 @@ class Answering:
         sources = tuple(name for name in understood.sources if name in known and name not in told)
         why = "" if failed else self._recollections.why(target, said, sources, situation.memory)
         reply = together(reply, why, SHALL_I if asked is not None and not failed else "")
-        asks = bool(understood.choices) and not understood.queue and asked is None
-        left = understood.left_open
-        if asks or left.where or order.alarm:
+        left, offers = understood.left_open, bool(understood.choices)
+        asks = not understood.queue and asked is None
+        if (asks and offers) or left.where or order.alarm:
             about = Asked(left.about or said.message, understood.choices, left.where, order.alarm)
             for name in {target, *speakers}:  # it may be answered where it was said, too
                 self._known.log(name).on_asked(about)
@@ -245,6 +245,7 @@ class Answering:
                 type="error" if failed else "response",
                 sources=tuple(name for name in understood.sources if name in known | told),
                 choices=understood.choices if asks else (),
+                asks=asks and bool(offers or left.where or texts.asks_back(understood.message_response)),
                 reply_to=said.id,
                 engine=understood.engine,
             ),

@@ -400,7 +400,7 @@ class Missions:
         """Say something, which answers a message."""
         feedback = ChatFeedback(
             message=self._node.spoken(text), targets=tuple(robots), type="response", choices=tuple(choices),
-            reply_to=said.id,
+            asks=texts.asks_back(text), reply_to=said.id,
         )  # fmt: skip
         self._node.publish(topics.CHAT_FEEDBACK, feedback)
         return True

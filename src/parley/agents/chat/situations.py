@@ -166,7 +166,7 @@ class Situations:
         if plan is None or plan.state in ("idle", "awaiting_approval"):
             return ""
         is_over = ("finished", "skipped", "stopped")
-        return "; ".join(step.label for step in plan.steps if step.state not in is_over)
+        return "; ".join(step.label for step in plan.steps if step.state not in is_over and not step.for_next)
 
     def moves(self, target: str, status: ActorStatus | None) -> bool:
         """Whether a robot is under way, or may be: a step that moves it runs, or it does not stand."""

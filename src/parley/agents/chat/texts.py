@@ -25,6 +25,7 @@ __all__ = [
     "SAY_CARRY_ON",
     "UNSURE",
     "alarm",
+    "asks_back",
     "concluded",
     "dropped",
     "forgotten",
@@ -79,6 +80,9 @@ _NEVER_MIND: Final = re.compile(
 )
 
 
+_QUOTED: Final = re.compile(r"“[^”]*”")
+_OFFERS_HELP: Final = re.compile(r"\b(?:do for you|help)\b")
+
 LEFT: Final = "All right, then I leave it."
 ONLY_LOOKS: Final = "You may look and stop, but not give orders here."
 REST_LEFT: Final = sentence("If there was more in what you said, please say it again.")
@@ -88,6 +92,19 @@ NOT_DONE: Final = sentence("I have not done that.")
 SAY_CARRY_ON: Final = "I go on when you say “carry on”."
 NOTHING_TO_RESUME: Final = "There is nothing left to go on with."
 _UNDO: Final = re.compile(r"(?:forget|unusta)\s+“(.+)”\W*", re.IGNORECASE)
+
+
+def asks_back(reply: str) -> bool:
+    """Whether a reply asks for words that are missing; to offer one's help is no question of that kind.
+
+    Examples:
+        >>> asks_back("I do not know where you are. Which place is it near?")
+        True
+        >>> asks_back("Hello. What can I do for you?")
+        False
+    """
+    last = re.split(r"(?<=[.!?]) +", _QUOTED.sub("", reply).strip())[-1]
+    return (last.endswith("?") or last.startswith("Please ")) and not _OFFERS_HELP.search(last)
 
 
 def still_standing(reply: str, message: str, *, paused: bool) -> str:

@@ -26,6 +26,7 @@ from parley.agents.thinking import PATIENCE_S, Thinking
 from parley.clock import Clock
 from parley.errors import InvalidMessageError
 from parley.gate.assent import assent_of
+from parley.gate.cards import labels_of, lines_of
 from parley.gate.control import Control, control_of
 from parley.gate.orders import engine
 from parley.gate.rule_talk import Listener, RuleTalk
@@ -44,7 +45,7 @@ from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.incident import GetIncidents, Incident
 from parley.messages.passages import PassageList
 from parley.messages.ros import ChatRequest, ChatResponse
-from parley.messages.status import ActorStatus, PlanProposal, PlanUpdate, StopCommand, StopReport
+from parley.messages.status import ActionInfo, ActorStatus, PlanProposal, PlanUpdate, StopCommand, StopReport
 from parley.messages.wire import decode, encode
 from parley.sentences import sentence
 from parley.transport.base import Transport
@@ -166,10 +167,22 @@ class ErrorHandler(Node):
         else:
             if earlier is not None:
                 self._end(earlier, "solved")
-            repair = Repair.begin(failure, incident_id=uuid.uuid4().hex, unix_ms=self._clock.unix_ms())
+            now_ms, label = self._clock.unix_ms(), self._label(failure)
+            repair = Repair.begin(failure, incident_id=uuid.uuid4().hex, unix_ms=now_ms, label=label)
         self._repairs[target] = repair
         self._record(repair)
         self._mailboxes.post(target, lambda: self._attempt(repair, None))
+
+    def _label(self, failure: ErrorHandlingMessage) -> str:
+        """What people read of the step that failed, whatever it hung on."""
+        catalogue = self._catalogue(failure.target)
+        steps = (failure.action_called, *failure.umrf_queue)
+        calls = [call.model_copy(update={"flow": None}) for call in steps]
+        return lines_of(calls, labels_of(calls, catalogue, self._objects(failure.target)), catalogue)[0]
+
+    def _catalogue(self, target: str) -> Sequence[ActionInfo]:
+        status = self._presence.get(target)
+        return status.catalogue if status is not None else ()
 
     def _on_said(self, feedback: ChatFeedback) -> None:
         self._questions.on_feedback(feedback)
@@ -403,9 +416,7 @@ class ErrorHandler(Node):
 
     def _is_about_rules(self, said: ChatInput, target: str) -> bool:
         """Whether a message tells, asks for or lifts a rule: that is no answer to a question of ours."""
-        status = self._presence.get(target)
-        catalogue = status.catalogue if status is not None else ()
-        to = Listener(target, self._presence.names(), self._objects(target), catalogue)
+        to = Listener(target, self._presence.names(), self._objects(target), self._catalogue(target))
         return self._rules is not None and self._rules.concerns(said.message, to)
 
     def _ask(self, repair: Repair, resolution: ChatAction) -> None:
@@ -438,7 +449,8 @@ class ErrorHandler(Node):
         del self._repairs[target]
         self._end(repair, "held")
         self._hold(target)
-        left = steps_left([repair.failure.action_called, *repair.failure.umrf_queue])
+        steps = [repair.failure.action_called, *repair.failure.umrf_queue]
+        left = steps_left(steps, self._catalogue(target))
         text = sentence(
             "I could not solve this, so I am waiting here. {problem} {left} Say “try again”, “skip it” or "
             "“cancel everything”, or give me another order.",

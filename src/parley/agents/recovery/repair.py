@@ -7,12 +7,13 @@ from dataclasses import dataclass, field
 from typing import Final, Literal
 
 from parley.errors import FailureCode
+from parley.gate.cards import for_next
 from parley.language.base import ErrorSituation, Turn
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.incident import Incident, IncidentAttempt
 from parley.messages.memory import MemoryEntry
-from parley.messages.status import ActorStatus, PlanUpdate
+from parley.messages.status import ActionInfo, ActorStatus, PlanUpdate
 from parley.sentences import sentence
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
@@ -76,13 +77,16 @@ class Repair:
     """Corrections that were carried out; the last may still be under way."""
 
     @classmethod
-    def begin(cls, failure: ErrorHandlingMessage, *, incident_id: str, unix_ms: int) -> Repair:
+    def begin(
+        cls, failure: ErrorHandlingMessage, *, incident_id: str, unix_ms: int, label: str = ""
+    ) -> Repair:
         """The repair of a step that failed for the first time."""
         incident = Incident(
             id=incident_id,
             robot=failure.target,
             graph_name=failure.failure_id.rpartition("/")[0],
             step=failure.action_called,
+            label=label,
             code=failure.code,
             message=failure.error_message,
             opened_unix_ms=unix_ms,
@@ -219,8 +223,9 @@ def memory_query(failure: ErrorHandlingMessage, reply: str | None) -> str:
     return "\n".join(part for part in parts if part)
 
 
-def steps_left(calls: Sequence[ActionCall]) -> str:
+def steps_left(calls: Sequence[ActionCall], catalogue: Sequence[ActionInfo]) -> str:
     """What is still to be done, for the operator."""
+    calls = [call for call, hidden in zip(calls, for_next(calls, catalogue), strict=True) if not hidden]
     reasons = [call.reason for call in calls if call.reason]
     if not reasons:
         several = sentence("{count} steps are left.", count=len(calls))
