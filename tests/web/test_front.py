@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import json
+import os
 import sqlite3
 import time
 from collections.abc import AsyncIterator, Iterator
 from contextlib import ExitStack, asynccontextmanager, closing, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +19,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin
 
-from parley.clock import Clock
+from parley.clock import Clock, WallClock
 from parley.gate.stop_line import StopLine
 from parley.messages import topics
 from parley.messages.status import Pulse, StopCommand, StopReport
@@ -28,6 +29,7 @@ from parley.web import stop_desk
 from parley.web.config import WebConfig
 from parley.web.robot_state import STOP_DEADLINE_S
 from parley.web.server import WebServer
+from parley.web.stopping import WRITTEN_WITHIN_S, Stopper
 from tests.transport.backends import until
 from tests.web.rig import HandClock, Rig, Robots, served
 
@@ -194,6 +196,22 @@ async def test_who_was_signed_out_stops_nobody_and_is_hung_up_on(monkeypatch: py
             await asyncio.to_thread(answer_on, line)
         assert not drive.line.latched("Ada")
         await asyncio.to_thread(stack.close)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs a file that nobody reads yet")
+async def test_a_stop_is_said_not_to_be_saved_only_where_that_failed_or_takes_long(tmp_path: Path) -> None:
+    file = tmp_path / "stops.json"
+    os.mkfifo(tmp_path / "stops.json.new")  # whoever writes it waits for a reader, as for a slow disk
+    line = StopLine(file)
+    stopper = Stopper(line, dict, lambda command: None, WallClock())
+    stop = stopper.stop((), by=None, id="s1")
+    assert stopper.is_kept(stop)
+    assert not stopper.is_kept(replace(stop, began_s=stop.began_s - WRITTEN_WITHIN_S))
+    with (tmp_path / "stops.json.new").open():  # what is no file on a disk cannot be brought there
+        assert await asyncio.wait_for(asyncio.wrap_future(line.written), 10) != ""
+        assert not stopper.is_kept(stop)
+    (tmp_path / "stops.json.new").unlink()
+    line.close()
 
 
 async def test_only_a_person_at_the_page_releases() -> None:

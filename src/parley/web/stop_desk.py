@@ -156,7 +156,7 @@ class StopDesk:
             await asyncio.wait([asyncio.wrap_future(written)], timeout=KEPT_WITHIN_S)
 
     def _told(self, stop: Stop) -> StopAnswer:
-        return StopAnswer(id=stop.id, robots=self._stopper.states(stop), kept=self._stopper.kept)
+        return StopAnswer(id=stop.id, robots=self._stopper.states(stop), kept=self._stopper.is_kept(stop))
 
 
 def _is_open(socket: WebSocket) -> bool:

@@ -22,6 +22,8 @@ __all__ = ["Stop", "Stopper"]
 
 REMEMBERED: Final = 1000
 """Messages that are known to have held robots already, should they be sent again."""
+WRITTEN_WITHIN_S: Final = 2.0
+"""A stop that is not on disk after this time is said not to be kept."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,11 +115,12 @@ class Stopper:
         """Done once all that was stopped is on disk, with empty text; None: that is known elsewhere."""
         return None if self._line is None else self._line.written
 
-    @property
-    def kept(self) -> bool:
-        """Whether what was stopped stays so over a kill of this process, as far as is known here."""
+    def is_kept(self, stop: Stop) -> bool:
+        """Whether it stays so over a kill of this process; no: it could not be written, or it takes long."""
         written = self.written
-        return written is None or (written.done() and written.result() == "")
+        if written is None or not written.done():
+            return written is None or self._clock.wall_s() - stop.began_s < WRITTEN_WITHIN_S
+        return written.result() == ""
 
     def _state(self, stop: Stop, name: str, view: RobotView | None) -> RobotStop:
         rests = self._at_rest(name) if name in stop.halted else None
