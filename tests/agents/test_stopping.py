@@ -200,6 +200,16 @@ async def test_an_engine_does_not_go_on_from_its_own_stop(party: Crew) -> None:
     assert party.observer.state("A") == "paused"
 
 
+async def test_what_is_told_a_robot_that_was_stopped_for_safety_waits_for_the_release_first(
+    party: Crew,
+) -> None:
+    party.observer.publish(topics.STOP, StopCommand(by=person("Kim")))
+    await party.state("paused")
+    party.order(look("box"))
+    await party.hears("Release the stop first")
+    assert not any("still standing still" in text for text in party.texts())
+
+
 async def test_after_a_stop_instead_of_an_answer_new_steps_wait_for_a_yes(failed: Crew) -> None:
     failed.observer.say("stop", "A")
     await failed.hears("I have stopped")

@@ -15,7 +15,7 @@ from parley.agents.planner.plan import TargetPlan
 from parley.agents.planner.relay import Relay
 from parley.agents.planner.remembering import memory_change
 from parley.agents.planner.robot_plans import RobotPlans
-from parley.agents.planner.steps import Step
+from parley.agents.planner.steps import LATCHED, Step
 from parley.errors import Problem
 from parley.gate.ruling import EFFECT_OF
 from parley.gate.table import verdict
@@ -74,7 +74,8 @@ class Commands:
                 step = plan.meant(command)
                 return [Say(orders.STEP_OVER)] if step is None else plan.drop(step)
             case "skip":
-                return [*plan.skip(), *([Say(STILL)] if plan.pause_wanted and len(plan.pending) > 1 else ())]
+                stays = plan.pause_wanted and len(plan.pending) > 1
+                return [*plan.skip(), *([Say(self._still(plan.target))] if stays else ())]
             case "pop":
                 return plan.pop(command.pop_index)
         return []  # memories are everybody's, see _remember
@@ -124,7 +125,12 @@ class Commands:
             self._plans.held_by.pop(plan.target, None)
             self._plans.send(plan, plan.start())
         elif calls and still and plan.update().state == "paused":
-            self._plans.say(plan.target, STILL, "info")
+            self._plans.say(plan.target, self._still(plan.target), "info")
+
+    def _still(self, robot: str) -> str:
+        """That a robot goes on standing, and what lets it move."""
+        status = self._plans.presence.get(robot)
+        return LATCHED if status is not None and status.state == "stopped" else STILL
 
     def hold_for(self, plan: TargetPlan, by: Principal | None) -> None:
         """Remember who told a robot to stand still; a person's word counts before anybody else's."""
