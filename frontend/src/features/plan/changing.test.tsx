@@ -143,6 +143,25 @@ describe('a plan that is being changed', () => {
     }
   });
 
+  it('is not said to be changed where what was changed had begun', async () => {
+    const steps = named('One', 'Two', 'Three');
+    const [one, two, three] = steps as [StepView, StepView, StepView];
+    const waits: ProposalView = { id: 'p', robot: 'Ada', message: '', changes: [], steps, digest: 'd', by: null, why: '' };
+    told([plan({ robot: 'Ada', state: 'awaiting_approval', steps: [] })], [waits]);
+    render(<PlanPanel />);
+    const user = userEvent.setup();
+    await user.click(screen.getByRole('button', { name: 'Change' }));
+    await user.click(screen.getByRole('button', { name: 'Move “Two” up' }));
+    act(() => useLive.getState().takeChanges([{ kind: 'proposal_gone', seq: 1, id: 'p' }]));
+    told([plan({ robot: 'Ada', revision: 7, state: 'running', steps: [{ ...one, state: 'running' }, two, three] })]);
+    const notes = () => useToasts.getState().toasts.map(({ message }) => message.replace(/[,:].*/, ''));
+    await vi.waitFor(() => expect(notes()).toEqual(['The plan changed meanwhile']));
+    expect(useToasts.getState().toasts[0]?.message).toContain('nothing is left of what you changed');
+    await user.click(screen.getByRole('button', { name: 'Save' }));
+    expect(notes()).toEqual([]); // nor "The plan was changed."
+    expect(screen.queryByRole('grid')).toBeNull();
+  });
+
   it.each(['One', 'anew'])('is not said to lack a step that somebody else has put back, as %s', async (planned) => {
     const [one, two] = named('One', 'Two') as [StepView, StepView];
     told([plan({ robot: 'Ada', revision: 4, state: 'running', steps: [{ ...one, state: 'running' }, two] })]);

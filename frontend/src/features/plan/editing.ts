@@ -92,6 +92,10 @@ function toDraft(step: StepView): DraftStep {
 export const callsOf = (steps: readonly DraftStep[]): readonly ActionCall[] =>
   steps.flatMap((step) => [...step.finding.map((one) => one.call), step.call]);
 
+/** Whether steps that are to be sent are those that wait in a plan already. */
+export const asItIs = (now: readonly StepView[], calls: readonly ActionCall[]) =>
+  JSON.stringify(calls) === JSON.stringify(callsOf(toDrafts(pendingSteps(now))));
+
 /** What a person can change of a step, that of its searches first. */
 export const inputsOf = (step: DraftStep) => [...step.finding.flatMap((one) => one.inputs), ...step.inputs].filter(editable);
 

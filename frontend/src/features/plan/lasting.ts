@@ -4,7 +4,7 @@ import { create } from 'zustand';
 
 import type { PlanView, StepView } from '@/live/types';
 
-import { pendingSteps, rebased, toDrafts, type DraftStep } from './editing';
+import { asItIs, callsOf, pendingSteps, rebased, toDrafts, type DraftStep } from './editing';
 
 export const useKeptEdits = create<Readonly<Record<string, unknown>>>()(() => ({}));
 
@@ -22,13 +22,15 @@ export const editId = (robot: string, plan: PlanView | null) => `${robot} ${plan
 /**
  * Take what was made of steps under one name over into a robot's plan as it is now, to be changed on there.
  * @param opened Whether it is being changed there already, and the keyboard stays where it is.
+ * @returns Whether anything of it is left: all may have begun, or be out by now.
  */
-export function carryOver(from: string, then: readonly StepView[], plan: PlanView, opened = false): void {
+export function carryOver(from: string, then: readonly StepView[], plan: PlanView, opened = false): boolean {
   const mine = useKeptEdits.getState()[`${from} steps`] ?? toDrafts(pendingSteps(then));
   const steps = rebased(then, mine as readonly DraftStep[], plan.steps);
   forget(from);
   const id = editId(plan.robot, plan);
   useKeptEdits.setState({ [`${id} steps`]: steps, [`${id} opened`]: opened, [baseOf(plan.robot)]: plan });
+  return !asItIs(plan.steps, callsOf(steps));
 }
 
 /** Forget all that is kept under a name. */

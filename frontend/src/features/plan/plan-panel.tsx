@@ -12,7 +12,7 @@ import { Icon } from '@/ui/icon';
 import { Empty, Loading, Panel } from '@/ui/panel';
 import { useSame, useStable } from '@/ui/stable';
 
-import { pendingSteps, sinceThen, toDrafts } from './editing';
+import { asItIs, pendingSteps, sinceThen, toDrafts } from './editing';
 import { MissionCard } from '@/ui/mission-card';
 import { goesOn, isOf } from '@/live/missions';
 import { PlanBar } from './plan-bar';
@@ -91,7 +91,7 @@ function PlanOf({ plan }: { plan: PlanView }) {
     const all = [...again.map((step) => step.call ?? {}), ...calls];
     const revision = editing && !isSame ? editing.revision : plan.revision;
     setSaving(true);
-    const outcome = await save(plan.robot, () => putSteps(plan.robot, all, revision), undefined, null);
+    const outcome = await save(plan.robot, () => putSteps(plan.robot, all, revision), asItIs(plan.steps, all) ? '' : undefined, null);
     const isDone = outcome === 'saved' || (outcome === 'conflict' && (await passed(plan.robot, revision)));
     if (isDone) close();
     setSaving(false);

@@ -92,8 +92,9 @@ function useNoticeWhenGone(id: string, edited: ProposalView | null) {
     const decided = async () => {
       await heard(() => begunOf(edited) !== undefined);
       const plan = begunOf(edited);
-      if (plan) carryOver(id, edited.steps, plan);
-      show({ tone: 'error', message: t(plan ? 'conflictKept' : 'decidedMeanwhile'), stands: 'deed' });
+      const isLeft = plan && carryOver(id, edited.steps, plan);
+      const kept = isLeft ? 'conflictKept' : 'conflictPast';
+      show({ tone: 'error', message: t(plan ? kept : 'decidedMeanwhile'), stands: 'deed' });
     };
     return useLive.subscribe(({ world }, before) => {
       if (!ownRef.current && !(id in world.proposals) && id in before.world.proposals) void decided();

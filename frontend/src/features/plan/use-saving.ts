@@ -76,8 +76,8 @@ export function useKeptInPlan(id: string, then: PlanView | null, plan: PlanView,
   const show = useToasts((state) => state.show);
   useEffect(() => {
     if (!then || isSame || ENDED.includes(plan.state)) return;
-    carryOver(id, then.steps, plan, true);
-    show({ tone: 'error', message: t('conflictKept'), stands: whileItGoesOn(plan.robot) });
+    const isLeft = carryOver(id, then.steps, plan, true);
+    show({ tone: 'error', message: t(isLeft ? 'conflictKept' : 'conflictPast'), stands: whileItGoesOn(plan.robot) });
   }, [id, then, plan, isSame, show, t]);
 }
 
