@@ -8,7 +8,7 @@ import { barriers, hasBrowser, PATIENCE_MS, say, sizes, startStage, type Stage }
 
 const FOLDER = 'screenshots';
 const SETTLED_MS = 700;
-const pages = ['chat', 'plan', 'display', 'map', 'memory', 'robots', 'rules', 'incidents', 'log', 'settings'] as const;
+const pages = ['chat', 'plan', 'display', 'map', 'memory', 'robots', 'rules', 'incidents', 'log', 'people', 'settings'] as const;
 const looks = ['light', 'dark', 'contrast'] as const;
 
 /** A robot that has looked, asked and been answered, and now asks which of two is meant. */
