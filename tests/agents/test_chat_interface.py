@@ -699,6 +699,20 @@ async def test_a_reply_that_lacks_words_says_that_it_asks(room: Room, reply: Cha
     assert room.observer.said[-1].asks_back is asks
 
 
+async def test_never_mind_lets_go_of_what_a_reply_asked_for_and_not_of_the_drive(room: Room) -> None:
+    room.observer.publish(topics.PLAN, running("A"))
+    await room.observer.until(lambda: "A" in room.observer.plans)
+    room.language.will("interpret", ChatAction(message_response="What do you mean by “it”?"))
+    room.observer.say("put it down", "A")
+    await room.reply()
+    room.observer.say("never mind", "A")
+    assert await room.reply(2) == "All right, then I leave it."
+    assert not room.planner.orders
+    room.observer.say("never mind", "A")  # now that means the drive
+    (order,) = await room.orders()
+    assert [command.command for command in order.system_cmd] == ["stop"]
+
+
 async def test_an_order_is_called_by_its_words_and_not_by_the_answer_to_which_one(room: Room) -> None:
     asks = ChatAction(message_response="Which one?", choices=("left box", "right box"))
     room.language.will("interpret", asks)

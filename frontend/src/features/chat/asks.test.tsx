@@ -1,8 +1,10 @@
 import { render, screen } from '@testing-library/react';
+import userEvent from '@testing-library/user-event';
 import { expect, it, vi } from 'vitest';
 
 import { entry, robot, snapshot } from '@/live/samples';
 import { useLive } from '@/live/store';
+import type { ChatEntry } from '@/live/types';
 
 import { Asks } from './asks';
 
@@ -17,4 +19,14 @@ it('says whose question it is where several are talked to, and does not say agai
   rerender(asks(['Ada', 'Bob']));
   expect(screen.getByText('Which box?').className).not.toBe('hidden');
   screen.getByText('Bob asks:');
+});
+
+it('lets go by a tap of what is answered in words, where a reply asks', async () => {
+  const chosen = vi.fn();
+  const asked = (part: Partial<ChatEntry>) => [entry({ id: 'q', seq: 1, message: 'Where to?', question: 'open', ...part })];
+  const { rerender } = render(<Asks chosen={['Ada']} asked={asked({ type: 'response' })} onChoose={chosen} />);
+  await userEvent.setup().click(screen.getByRole('button', { name: 'Never mind' }));
+  expect(chosen.mock.lastCall?.[1]).toBe('never mind');
+  rerender(<Asks chosen={['Ada']} asked={asked({ type: 'request' })} onChoose={chosen} />);
+  expect(screen.queryByRole('button')).toBeNull();
 });

@@ -21,6 +21,9 @@ const byKeys = (text: HTMLElement | null) => {
   if (text) text.tabIndex = text.scrollHeight > text.clientHeight ? 0 : -1;
 };
 
+/** As it is understood in every language. */
+const NEVER_MIND = 'never mind';
+
 type Choose = (entry: ChatEntry, choice: string) => void;
 
 interface Props {
@@ -82,6 +85,12 @@ function Question({ entry, isOneOfMany, onChoose, children }: QuestionProps) {
       </p>
       <div className={css.buttons}>
         <Choices entry={entry} onChoose={onChoose} />
+        {/* What a reply asks for may not be wanted any more; a robot that waits for help says itself what can be done. */}
+        {entry.type === 'response' && entry.choices.length === 0 && (
+          <Button needs="speak" onPress={() => onChoose(entry, NEVER_MIND)}>
+            {t('neverMind')}
+          </Button>
+        )}
         {children}
       </div>
     </section>

@@ -230,12 +230,14 @@ class Answering:
         sources = tuple(name for name in understood.sources if name in known and name not in told)
         why = "" if failed else self._recollections.why(target, said, sources, situation.memory)
         reply = together(reply, why, SHALL_I if asked is not None and not failed else "")
-        left, offers = understood.left_open, bool(understood.choices)
-        asks = not understood.queue and asked is None
-        if (asks and offers) or left.where or order.alarm:
+        left, unsettled = understood.left_open, not understood.queue and asked is None
+        offers = unsettled and bool(understood.choices)
+        asks = offers or (unsettled and bool(left.where or texts.asks_back(understood.message_response)))
+        if offers or left.where or order.alarm:
             about = Asked(left.about or said.message, understood.choices, left.where, order.alarm)
             for name in {target, *speakers}:  # it may be answered where it was said, too
                 self._known.log(name).on_asked(about)
+        self._known.log(target).lacks = asks
         self._known.log(target).on_left_open(said.message, left)
         self._node.publish(
             topics.CHAT_FEEDBACK,
@@ -244,8 +246,8 @@ class Answering:
                 targets=speakers,
                 type="error" if failed else "response",
                 sources=tuple(name for name in understood.sources if name in known | told),
-                choices=understood.choices if asks else (),
-                asks=asks and bool(offers or left.where or texts.asks_back(understood.message_response)),
+                choices=understood.choices if offers else (),
+                asks=asks,
                 reply_to=said.id,
                 engine=understood.engine,
             ),

@@ -467,10 +467,18 @@ class ChatInterface(Node):
         return refuses or is_no(message)
 
     def _gives_up(self, target: str, said: ChatInput, control: Control | None) -> bool:
-        """Whether a no is to what a robot has just asked back about an order; "cancel" ends a drive too."""
+        """Whether a no is to what a robot has just asked back about an order; "cancel" ends a drive too.
+
+        A mere no while it moves and asks for words may mean the drive; "never mind" does not.
+        """
         means_more = control in _HALTING and not (control == "clear" and self._known.state(target) == "idle")
-        asked = self._known.log(target).has_just_asked and not means_more
-        return asked and gives_up(said.message, self._presence.names())
+        log = self._known.log(target)
+        lacks = log.lacks and texts.is_never_mind(said.message)
+        return (
+            (log.has_just_asked or lacks)
+            and not means_more
+            and gives_up(said.message, self._presence.names())
+        )
 
     def _leave(self, target: str, said: ChatInput) -> None:
         """Do without the order that was asked about."""

@@ -48,6 +48,8 @@ class Log:
     _refused: str = ""
     _asked: tuple[Asked, int] | None = None
     """With the number of turns for which it may still be answered."""
+    lacks: bool = False
+    """Whether what was said last lacks something, and that was asked for."""
     _waiting: list[str] = field(default_factory=list)
     _told: list[str] = field(default_factory=list)
     _plan: PlanUpdate | None = None
@@ -78,7 +80,7 @@ class Log:
 
     def on_given_up(self) -> None:
         """What was asked about is not wanted any more."""
-        self._asked = None
+        self._asked, self.lacks = None, False
 
     def on_left_open(self, words: str, left: LeftOpen) -> None:
         """A message was answered so that later ones may refer to it."""
@@ -87,6 +89,7 @@ class Log:
 
     def on_turn(self) -> None:
         """Something was said; after a while nobody means what was asked long ago."""
+        self.lacks = False
         if self._asked is not None:
             asked, left = self._asked
             self._asked = (asked, left - 1) if left > 1 else None

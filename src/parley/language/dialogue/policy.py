@@ -390,7 +390,7 @@ def _asked_again(made: Ask, heard: Heard) -> Ask | Answer | None:
         return None
     if gives_up(situation.message, situation.robots) or _NONE.fullmatch(heard.bare):
         return Answer("All right, then I leave it.")
-    return Ask(f"I did not understand that. {which_one(asked.choices)}")
+    return Ask(f"I did not understand that. {which_one(asked.choices)}", asked.choices, about=asked.words)
 
 
 _NONE: Final = re.compile(
