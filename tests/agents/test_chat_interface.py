@@ -699,6 +699,13 @@ async def test_a_reply_that_lacks_words_says_that_it_asks(room: Room, reply: Cha
     assert room.observer.said[-1].asks_back is asks
 
 
+async def test_what_is_said_in_the_place_of_a_question_is_none(room: Room) -> None:
+    room.language.will("interpret", ChatAction(message_response="What shall I do with Ruth?"))
+    room.observer.say("no wait, Ruth shall stay where she is", "A")
+    assert "I am standing still" in await room.reply()
+    assert not room.observer.said[-1].asks_back
+
+
 async def test_never_mind_lets_go_of_what_a_reply_asked_for_and_not_of_the_drive(room: Room) -> None:
     room.observer.publish(topics.PLAN, running("A"))
     await room.observer.until(lambda: "A" in room.observer.plans)

@@ -129,8 +129,11 @@ async def test_what_it_waits_for_is_its_open_question() -> None:
 
 
 async def test_a_choice_that_was_not_understood_is_asked_again() -> None:
-    asked = Dialogue(asked=Asked("go to it", ("box in the hall", "gate")))
+    choices = ("box in the hall", "gate")
+    asked = Dialogue(asked=Asked("go to it", choices))
     assert "the box in the hall or the gate" in await said("the pink one", asked)
+    made = await ENGINE.interpret(Situation("the pink one", objects=THINGS, robot="Ada", dialogue=asked))
+    assert (made.choices, made.left_open.about) == (choices, "go to it")
 
 
 @pytest.mark.parametrize(

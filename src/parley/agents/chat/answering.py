@@ -232,7 +232,8 @@ class Answering:
         reply = together(reply, why, SHALL_I if asked is not None and not failed else "")
         left, unsettled = understood.left_open, not understood.queue and asked is None
         offers = unsettled and bool(understood.choices)
-        asks = offers or (unsettled and bool(left.where or texts.asks_back(understood.message_response)))
+        lacks = bool(left.where) or texts.asks_back(understood.message_response)
+        asks = offers or (unsettled and lacks and understood.message_response in reply)
         if offers or left.where or order.alarm:
             about = Asked(left.about or said.message, understood.choices, left.where, order.alarm)
             for name in {target, *speakers}:  # it may be answered where it was said, too

@@ -181,7 +181,7 @@ class Missions:
         elif mission.shares:
             await self._carry_out(target, said, mission, halts)
         else:
-            self._say((target,), mission.text, said, mission.choices)
+            self._say((target,), mission.text, said, mission.choices, asks=texts.asks_back(mission.text))
         return True
 
     def _progress(
@@ -396,11 +396,19 @@ class Missions:
             return sentence("{robot}: {steps} ({why}).", robot=share.robot, steps=steps, why=share.why)
         return sentence("{robot}: {steps}.", robot=share.robot, steps=steps)
 
-    def _say(self, robots: Sequence[str], text: str, said: ChatInput, choices: Sequence[str] = ()) -> bool:
+    def _say(
+        self,
+        robots: Sequence[str],
+        text: str,
+        said: ChatInput,
+        choices: Sequence[str] = (),
+        *,
+        asks: bool = False,
+    ) -> bool:
         """Say something, which answers a message."""
         feedback = ChatFeedback(
             message=self._node.spoken(text), targets=tuple(robots), type="response", choices=tuple(choices),
-            asks=texts.asks_back(text), reply_to=said.id,
+            asks=asks, reply_to=said.id,
         )  # fmt: skip
         self._node.publish(topics.CHAT_FEEDBACK, feedback)
         return True
