@@ -104,7 +104,7 @@ function PlanOf({ plan }: { plan: PlanView }) {
       <PlanBar plan={plan} lines={lines} current={current} onEdit={pending.length > 0 && !editing ? () => setEditing(plan) : null} />
       {/* eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex -- what scrolls must be reachable by keys */}
       <div className={css.scroller} tabIndex={0} role="region" aria-label={t('steps')}>
-        <Together robot={plan.robot} />
+        <Together robot={plan.robot} open={lines.length - over + waiting.length} />
         <Steps title={t('earlier')} from={0} lines={lines.slice(0, over)} plan={plan} isFolded={over < lines.length || waiting.length > 0} />
         <Steps title={t('now')} from={over} lines={lines.slice(over)} plan={plan} isChanged={(id) => changed.includes(id)} onRemove={editing ? undefined : remove} list={steps} />
         {editing && (
@@ -131,14 +131,14 @@ function PlanOf({ plan }: { plan: PlanView }) {
   );
 }
 
-/** What the robot does with others: all that goes on, or else what ended last. */
-function Together({ robot }: { robot: string }) {
+/** What the robot does with others: all that goes on, or else what ended last, until it does something else. */
+function Together({ robot, open }: { robot: string; open: number }) {
   const isBeside = useContext(Beside); // then the conversation shows what goes on
   const missions = useWorld((world) => world.missions);
   const own = missions.filter((mission) => isOf(mission, [robot]));
   const going = own.filter(goesOn);
   if (isBeside && going.length > 0) return null;
-  return (going.length > 0 ? going : own.slice(-1)).map((mission) => (
+  return (going.length > 0 || open > 0 ? going : own.slice(-1)).map((mission) => (
     <MissionCard key={mission.id} mission={mission} isFolded={!goesOn(mission)} />
   ));
 }
