@@ -196,3 +196,9 @@ def test_the_label_of_a_step_that_asks_holds_the_question_in_the_same_language()
     asked = "I cannot pick things up. Please put the red box on me and tell me when it is done."
     assert in_language(f"Ask you: “{asked}”", "et") == f"Küsi sinult: „{in_language(asked, 'et')}“"
     assert in_language("Ask you: “How is it?”", "et") == "Küsi sinult: „How is it?“"
+
+
+def test_what_is_quoted_in_a_part_of_a_sentence_may_be_several_sentences() -> None:
+    asks = "Ask you: “I cannot pick things up. Please put the box on me and tell me when it is done.”"
+    told = in_language(str(sentence("I have finished. I left out: {what}.", what=asks)), "et")
+    assert told.startswith("Valmis. Jätsin vahele: Küsi sinult: „Ma ei saa asju üles võtta. ")

@@ -28,7 +28,7 @@ ROOMS = (
     "robots/navigator.py",
 )
 HOLE = "◯"
-FILLINGS = ("Qqq", "7", " to Qqq", "", "Qqq.", "you told", "an")
+FILLINGS = ("Qqq", "7", " to Qqq", "", "Qqq.", "you told", "an", ", so I cannot go there")
 SAYINGS = (
     "hello", "where are you", "what can you do?", "go to the gate", "go to a chair", "never mind",
     "wait 2 seconds", "turn left", "turn left by 90 degrees", "check whether the TV is on",
@@ -41,6 +41,8 @@ FACTS = ("the gate is open", "the TV is on", "the door is closed")
 ENGLISH = re.compile(
     r"\b(?:the|and|is|are|of|I|you|not|with|for|my|your|do|can|cannot|which|what|where|shall)\b"
 )
+PARTS = re.compile(r"\b(?:know|where|what|which|shall|are)\b")
+"""What stays where a sentence is taken for a shorter one that has a hole for anything."""
 SAID_IN = re.compile(r"[A-Z“◯].* .*[.?!]", re.DOTALL)
 WITHOUT = {
     "builtin/lexicon.py",  # mistakes in our own data
@@ -100,7 +102,8 @@ def unknown(text: str, language: str) -> list[str]:
 def is_known(text: str, language: str) -> bool:
     """Whether a text has a form, with something or other in its holes."""
     fillings = (re.sub(rf"(?:{HOLE})+", filling, text) for filling in FILLINGS)
-    return any(not unknown(" ".join(filled.split()), language) for filled in fillings)
+    plain = [" ".join(filled.split()) for filled in fillings]
+    return any(not unknown(one, language) and not PARTS.search(in_language(one, language)) for one in plain)
 
 
 def test_every_sentence_of_the_built_in_engine_has_a_form_in_every_language() -> None:

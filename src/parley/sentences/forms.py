@@ -99,7 +99,8 @@ def _filling(template: str, name: str, behind: str) -> str:
     whole = not name.startswith("words") and (not behind or re.match(r" (?:[A-Z“]|$)", behind))
     if name == "steps" and not whole:  # they are numbered: "1. Go"
         return r"(?:(?!(?<!\d)[.?!]\s+[A-Z“]).)+?"
-    return ".+?" if whole else r"(?:(?![.?!]\s+[A-Z“]).)+?"
+    # Less than one may hold whole ones in quotation marks.
+    return ".+?" if whole else r"(?:“[^”]*”|(?![.?!]\s+[A-Z“])[^“])+?"
 
 
 _JOINED: Final = "{first} and {last}"

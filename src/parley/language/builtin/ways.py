@@ -56,8 +56,8 @@ class Ways(Grounder):
             return Ask("I cannot find out where that is.")
         if goal.argument == "operator" or not goal.things:
             what = "you" if goal.argument == "operator" else goal.said
-            unknown = "you are" if what == "you" else f"{what} is"
-            return Ask(f"I do not know where {unknown}. Which place is it near?", where=what)
+            unknown = f"I do not know where {what} is." if what != "you" else "I do not know where you are."
+            return Ask(f"{unknown} Which place is it near?", where=what)
         return [
             Deed("GO", locate, {next(iter(locate.roles.values())): goal.argument}, said, hidden=True),
             Deed("GO", skill, {}, said),
