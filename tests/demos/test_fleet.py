@@ -444,6 +444,47 @@ async def test_another_order_to_a_team_comes_in_place_of_the_one_before(
                 await home.say("yes", name)
 
 
+@pytest.mark.parametrize(
+    ("words", "hearers", "ends", "stands"),
+    [
+        ("no wait, Spot to the dock and TIAGo to the gate", ROBOTS, ["dock", "gate", "pump"], ["Leo"]),
+        ("stop, Leo go to Area B", ROBOTS, ["pump", "pump", "Area B"], ["Spot", "TIAGo"]),
+        ("stop everyone! TIAGo to Area A, Leo to Area C", ROBOTS[:1], ["pump", "Area A", "Area C"], ["Spot"]),
+        ("stop, go to the dock", ROBOTS[:1], ["dock", "pump", "pump"], []),
+        ("two of you go wait by the gate, one stays here", ROBOTS, ["gate", "gate", "pump"], ["Leo"]),
+    ],
+)
+async def test_an_order_behind_a_stop_is_taken_up_once_while_the_others_stand(
+    words: str, hearers: tuple[str, ...], ends: list[str], stands: list[str]
+) -> None:
+    async with hall(speed=4.0) as home:
+        await home.say("Everybody go to the pump", "Spot")
+        for name in ROBOTS:
+            await home.state("running", name)
+        heard = len(home.observer.said)
+        home.observer.say(words, hearers[0], also=hearers[1:])
+
+        def told_how() -> list[str]:
+            new = home.observer.said[heard:]
+            return [one.message for one in new if one.message.startswith("This is how we")]
+
+        await home.observer.until(lambda: bool(told_how()), timeout_s=PATIENCE_S)
+        if told_how()[0].endswith("Shall I?"):
+            assert all(home.observer.state(name) == "paused" for name in ROBOTS if name in words or stands)
+            home.observer.say("yes", hearers[0])  # also if it is no part of it
+
+        def is_so() -> bool:
+            plans = home.observer.plans
+            over = ("skipped", "stopped")
+            left = [[step for step in plans[name].steps if step.state not in over] for name in ROBOTS]
+            places = [str(steps[-1].label).split("“")[-1].strip("”") for steps in left]
+            still = [name for name in ROBOTS if plans[name].state == "paused"]
+            return all(map(str.endswith, places, ends)) and still == stands
+
+        await home.observer.until(is_so, timeout_s=PATIENCE_S)
+        assert len(told_how()) == 1
+
+
 async def test_words_to_a_team_that_are_not_read_are_no_order_to_whoever_hears_them() -> None:
     async with hall() as home:
         for text in ("Half of you go to the pump.", "Make sure there's always one of you at the dock."):

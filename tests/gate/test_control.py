@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from parley.gate.control import Control, control_of
+from parley.gate.control import Control, control_of, stops_all
+from parley.gate.stop_words import called
 
 
 @pytest.mark.parametrize(
@@ -106,6 +107,22 @@ def test_a_word_inside_a_sentence_is_no_order(text: str) -> None:
 @given(st.sampled_from(["stop", "wait", "cancel"]), st.sampled_from(["chair", "door", "wug", "blicket"]))
 def test_an_order_with_an_object_is_never_taken_for_the_order_alone(order: str, noun: str) -> None:
     assert control_of(f"{order} at the {noun}") is None
+
+
+@pytest.mark.parametrize("whom", ["all", "everybody", "all of you", "kõik robotid", "alle", "tous", "все"])
+@pytest.mark.parametrize(
+    ("words", "control"),
+    [("emergency stop", "emergency_stop"), ("hädapeatus", "emergency_stop"), ("halt", "stop")],
+)
+def test_who_stops_all_says_so_before_or_behind(words: str, control: Control, whom: str) -> None:
+    for said in (f"{words} {whom}", f"{whom}, {words}!", f"{words} {whom} please"):
+        assert control_of(said) == stops_all(said) == control
+        assert called(said, ("Ada", "Kim")) == ("Ada", "Kim")
+
+
+@pytest.mark.parametrize("said", ["all clear", "skip all", "that's all", "stop all of it", "all right"])
+def test_all_is_no_word_of_stopping_itself(said: str) -> None:
+    assert control_of(said) is stops_all(said) is None
 
 
 @given(st.text(max_size=300))

@@ -37,7 +37,8 @@ def test_a_call_holds_and_is_read_as_one(said: str) -> None:
         "stop at the box", "don't stop", "the bus stop", "go to the door and wait there",
         "wait until Kim is back",
         "the stop button is red", "tell Kim to wait", "careful with the glass when you carry it",
-        "bring enough cups", "why did you stop?", "without stopping", "ära peatu", "peatu kasti juures",
+        "bring enough cups", "why did you stop?", "without stopping", "go round till I say stop",
+        "ära peatu", "peatu kasti juures",
     ],
 )  # fmt: skip
 def test_what_only_has_such_a_word_is_no_call(said: str) -> None:
@@ -81,6 +82,7 @@ def test_a_word_of_waiting_may_only_open_a_correction(text: str, moves: bool, on
         ("Everybody stop!", ("Ada", "Cart 2")),
         ("kõik seis!", ("Ada", "Cart 2")),
         ("stop all", ("Ada", "Cart 2")),
+        ("alle stopp", ("Ada", "Cart 2")),
         ("careful, cart 2!", ("Cart 2",)),
         ("stop, that is Ada's box", ()),
         ("stop", ()),

@@ -33,3 +33,8 @@ def test_what_is_the_same_for_all_or_more_than_that_is_left_alone(say: str) -> N
 )
 def test_those_that_are_not_named_are_the_others(say: str, stops: list[str], goes: list[str]) -> None:
     assert halting(say, ("Ada", "Kim", "Leo"), ("Leo",)) == Halting(tuple(stops), tuple(goes))
+
+
+@pytest.mark.parametrize("say", ["the others carry on", "the other two stop"])
+def test_the_others_of_all_are_nobody(say: str) -> None:
+    assert halting(say, ("Ada", "Kim", "Leo"), ("Ada", "Kim", "Leo")) is None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from parley.files import words_in
-from parley.team.wishes import Part, asked_by_name, is_unread, team_wish
+from parley.team.wishes import Part, asked_by_name, gathered, is_unread, team_wish, turned_wish
 
 ROBOTS = ("Ada", "Kim")
 SAYS = [(kind, say) for kind, says in words_in("parley.team", "wishes")["tests"].items() for say in says]
@@ -215,6 +215,80 @@ def test_orders_and_questions_of_other_things_are_left_to_whoever_understands_th
 def test_words_to_a_team_are_known_as_such_though_they_are_not_read(say: str, read: str | None) -> None:
     assert team_wish(say, ROBOTS) is None
     assert is_unread(say, ROBOTS) == read
+
+
+@pytest.mark.parametrize(
+    ("say", "asked"),
+    [
+        ("where are Ada and Kim?", {"Ada": "where are you?", "Kim": "where are you?"}),
+        ("where are Kim and the box?", {"Kim": "where are you?", "Ada": "where are the box?"}),
+        ("What are Ada and Kim doing?", {"Ada": "What are you doing?", "Kim": "What are you doing?"}),
+        ("Are Kim and Ada done?", {"Kim": "Are you done?", "Ada": "Are you done?"}),
+    ],
+)
+def test_what_is_asked_of_several_by_name_each_of_them_is_asked(say: str, asked: dict[str, str]) -> None:
+    wish = team_wish(say, (*ROBOTS, "Leo"), "Ada")
+    assert wish is not None
+    assert wish.kind == "about"
+    assert {part.robot: part.order for part in wish.parts} == asked
+
+
+@pytest.mark.parametrize(
+    ("say", "parts"),
+    [
+        (
+            "meet Kim at the gate",
+            [Part("named", "go to the gate", "Ada"), Part("named", "go to the gate", "Kim")],
+        ),
+        ("let's all meet at the gate", [Part("all", "go to the gate")]),
+        ("all of you, meet each other by the gate", [Part("all", "go to the gate")]),
+    ],
+)
+def test_who_meets_goes_to_the_place(say: str, parts: list[Part]) -> None:
+    wish = team_wish(say, ROBOTS, "Ada")
+    assert wish is not None
+    assert list(wish.parts) == parts
+    assert gathered("Let's meet up at the gate") == "go to the gate"
+    assert gathered("look at the gate") == "look at the gate"
+
+
+@pytest.mark.parametrize(
+    ("say", "turns", "parts"),
+    [
+        (
+            "no wait, Ada to the dock and Kim to the gate",
+            "done",
+            [Part("named", "go to the dock", "Ada"), Part("named", "go to the gate", "Kim")],
+        ),
+        ("Stop! Ada go to the gate", "asked", [Part("named", "go to the gate", "Ada")]),
+        ("hold on, all of you go back to the dock", "done", [Part("all", "go back to the dock")]),
+        ("stop everyone, Kim goes to the gate", "asked", [Part("named", "go to the gate", "Kim")]),
+        ("Freeze and go to the dock", "asked", [Part("named", "go to the dock", "Ada")]),
+        ("Stop, everybody! Go to the dock", "asked", [Part("all", "Go to the dock")]),
+    ],
+)
+def test_an_order_behind_words_of_stopping_is_read(say: str, turns: str, parts: list[Part]) -> None:
+    wish = turned_wish(say, ROBOTS, ["Ada"])
+    assert wish is not None
+    assert (wish.turns, list(wish.parts)) == (turns, parts)
+
+
+@pytest.mark.parametrize(
+    "say",
+    ["stop", "stop, there is a child", "stop, all of you", "wait, not that one",
+     "wait, go to the gate instead", "Forget it, all of you wait at the dock",
+     "one of you goes to the gate, the others wait at the dock", "wait at the dock", "stop, go on",
+     "stop! Kim, stop", "wait a minute, then all of you go to the dock",
+     "Ada goes to the gate", "hold the door"],
+)  # fmt: skip
+def test_what_is_no_order_behind_words_of_stopping_is_left_to_others(say: str) -> None:
+    assert turned_wish(say, ROBOTS, ["Ada"]) is None
+
+
+def test_behind_a_stop_all_that_hear_it_are_meant() -> None:
+    wish = turned_wish("stop, go to the dock", (*ROBOTS, "Leo"), ROBOTS)
+    assert wish is not None
+    assert wish.parts == (Part("all", "go to the dock", without=("Leo",)),)
 
 
 def test_you_is_whoever_hears_it() -> None:

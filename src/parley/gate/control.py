@@ -8,15 +8,16 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Iterator
 from functools import cache
-from typing import Literal
+from typing import Final, Literal
 
 from rapidfuzz.distance import OSA
 
 from parley.files import words_in
 from parley.gate.control_grammar import among_talk, composed
 
-__all__ = ["Control", "control_of"]
+__all__ = ["Control", "behind_stop", "control_of", "stops_all"]
 
 Control = Literal["stop", "start", "skip", "clear", "emergency_stop"]
 """What the chat interface does at once; the names are those of the system commands, but for the last."""
@@ -49,8 +50,39 @@ def control_of(text: str, names: tuple[str, ...] = ()) -> Control | None:
         return "clear"
     if len(plain) < len(words) and _look_up(plain) == "stop":
         return "stop"
-    return _look_up(words) or _look_up(plain) or _in_full(text, words, called)
+    return _look_up(words) or _look_up(plain) or stops_all(text) or _in_full(text, words, called)
 
+
+def stops_all(text: str) -> Literal["stop", "emergency_stop"] | None:
+    """What words of stopping mean with who all is before or behind them: "emergency stop for all"."""
+    words = _strip(_words(text), set()) if len(text) <= _LONGEST_CHARS else ()
+    for whom in _everybody():
+        size = len(whom)
+        for rest in (words[size:] * (words[:size] == whom), words[:-size] * (words[-size:] == whom)):
+            bare = _strip(rest, set())
+            if _look_up(bare) == "stop":
+                return "stop"
+            if _look_up(bare[:-1] if {*bare[-1:]} & _for() else bare) == "emergency_stop":
+                return "emergency_stop"
+    return None
+
+
+def behind_stop(text: str, names: tuple[str, ...] = ()) -> Iterator[tuple[str, str]]:
+    """The words of stopping at the head of a message, and what comes behind them, shortest head first.
+
+    Args:
+        text: What the operator said: "stop, all of you back to the dock".
+        names: Names of robots.
+    """
+    called = {part for name in names for part in _words(name)}
+    for cut in _CUT.finditer(text[:_LONGEST_CHARS]):
+        head, rest = text[: cut.start()], text[cut.end() :]
+        bare = _strip(_without_span(_words(head)), called)
+        if rest and "stop" in (_look_up(bare), _repeated(bare), composed(bare), stops_all(head)):
+            yield head, rest
+
+
+_CUT: Final = re.compile(r"[\s,.;:!–—-]+(?:(?:and|then|but|ja|siis)\s+)*", re.IGNORECASE)
 
 _EVERYBODY = {"everyone", "everybody", "robots"}
 
@@ -266,6 +298,17 @@ _SLIPS: dict[str, Control] = {
 @cache
 def _around() -> frozenset[str]:
     return frozenset(part for text in words_in("parley.gate", "control")["around"] for part in text.split())
+
+
+@cache
+def _everybody() -> tuple[tuple[str, ...], ...]:
+    phrases = words_in("parley.gate", "control")["everybody"]
+    return tuple(sorted(map(_words, phrases), key=len, reverse=True))
+
+
+@cache
+def _for() -> frozenset[str]:
+    return frozenset(words_in("parley.gate", "control")["for"])
 
 
 @cache

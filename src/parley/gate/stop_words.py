@@ -12,6 +12,7 @@ import unicodedata
 from collections.abc import Sequence
 from typing import Final
 
+from parley.gate.control import stops_all
 from parley.messages.plain import named_in
 
 __all__ = [
@@ -21,6 +22,7 @@ __all__ = [
     "has_stop_word",
     "is_no",
     "only_takes_back",
+    "only_waits",
     "opens_with_no",
 ]
 
@@ -76,6 +78,7 @@ _NONE: Final = tuple(
         # told, asked, or for later
         r"\b(?:tell|told|ask|asked|remind)\s+\w+\s+to\s+(?:stop|halt|wait)\b",
         rf"\b{_AUXILIARY}\s+(?:\w+\s+)?(?:stop|halt|wait|freeze|brake)\b(?!\s*[!])",
+        r"\b(?:until|till|unless|before)\s+\w+\s+(?:says?|calls?|shouts?|tells?\s+you\s+to)\s+(?:stop|halt|wait)\b(?!\s*[!])",
         r"\b(?:stop|wait|halt)\s+(?:smiling|smoking|talking|asking|laughing|crying|worrying|raining|"
         r"joking)\b",
         # an order of where to go and then to stand
@@ -102,7 +105,7 @@ def called(text: str, names: Sequence[str]) -> tuple[str, ...]:
 
     Who is waited for is not called: "wait for Kim" is for whoever hears it.
     """
-    if _EVERYBODY.search(_plain(text)):
+    if _EVERYBODY.search(_plain(text)) or stops_all(text):
         return tuple(names)
     known = "|".join(map(re.escape, names))
     awaited = rf"\bfor\s+(?:{known})(?:\s+and\s+(?:{known}))*\b"
@@ -129,11 +132,14 @@ def only_takes_back(text: str, *, moves: bool = True) -> bool:
         moves: Whether the robot is under way; of one that stands any word more is read.
     """
     plain = _plain(text)
-    words = [found[0] for found in _STOP.finditer(plain)]
-    weak = all(_WEAK.fullmatch(word) is not None for word in words)
     rest = _STOP.sub(" ", plain)
     more = _BEHIND.search(rest) if moves else len(re.findall(r"\w+", rest)) > _FEW
-    return bool(words) and weak and bool(more)
+    return _STOP.search(plain) is not None and only_waits(text) and bool(more)
+
+
+def only_waits(text: str) -> bool:
+    """Whether all words of stopping in a message are those that mostly open a correction: "no wait"."""
+    return all(_WEAK.fullmatch(found[0]) is not None for found in _STOP.finditer(_plain(text)))
 
 
 _FEW: Final = 3

@@ -166,4 +166,6 @@ class _Said:
         does["go"] -= by_name["stop"]
         if self.whom or not self.clauses or does["stop"] & does["go"] or by_name["stop"] & by_name["go"]:
             return None
+        if not does["stop"] and not does["go"]:
+            return None  # "the others" of all: who is meant has to be asked
         return Halting(*(tuple(name for name in robots if name in does[deed]) for deed in _DEEDS))

@@ -14,13 +14,24 @@ from functools import cache
 from typing import Final, Literal
 
 from parley.files import words_in
-from parley.gate.control import control_of
-from parley.gate.stop_words import calls_to_stop
+from parley.gate.control import behind_stop, control_of, stops_all
+from parley.gate.stop_words import calls_to_stop, has_stop_word, only_waits
+from parley.language.builtin.answers import sought
 from parley.language.builtin.lexicon import lemmas, lexicon
 from parley.language.builtin.tokens import tokenize
 from parley.language.dialogue.questions import asks, plain, question_of
 
-__all__ = ["Part", "TeamWish", "asked_by_name", "is_in_turn", "is_of_several", "is_unread", "team_wish"]
+__all__ = [
+    "Part",
+    "TeamWish",
+    "asked_by_name",
+    "gathered",
+    "is_in_turn",
+    "is_of_several",
+    "is_unread",
+    "team_wish",
+    "turned_wish",
+]
 
 
 Who = Literal["one", "some", "rest", "all", "each", "named"]
@@ -81,7 +92,8 @@ class TeamWish:
         "alone",
     ]
     parts: tuple[Part, ...] = ()
-    """For `share` one, of all; for `swap` those that are named; for `bar` where each of them shall not go."""
+    """For `share` one, of all; for `swap` those that are named; for `bar` where each of them shall not go; of
+    several robots, for `about`, what each is asked."""
     about: str = ""
     """For `nearest` the place, for `about` the question as that robot would be asked, for `progress` what was
     asked of, if not all of it, for `judged` words that judge nothing."""
@@ -98,6 +110,8 @@ class TeamWish:
     """Whether what was wanted before is wanted no more."""
     otherwise: TeamWish | None = None
     """For `progress`: what it asks if no such work is known."""
+    turns: Literal["", "done", "asked"] = ""
+    """Behind words of stopping, it comes in place of what its doers are at: at once, or after a yes."""
 
 
 _SEVERAL: Final = re.compile(r"\b(?:all|every|each|both|any|two|three|four|five|six|[2-9])\b", re.IGNORECASE)
@@ -133,6 +147,30 @@ def team_wish(message: str, robots: Sequence[str], hearer: str = "") -> TeamWish
     if not any(part.stays for part in wish.parts) and calls_to_stop(message):
         return None
     return words.counted(wish, message)
+
+
+def turned_wish(message: str, robots: Sequence[str], hearers: Sequence[str]) -> TeamWish | None:
+    """The order behind words of stopping: "stop, Ada go to the gate", "no wait, all of you back".
+
+    None if there is none, or if whoever hears it reads it for itself: "wait, not that one".
+    """
+    words = _Words(tuple(robots), hearers[0] if len(hearers) == 1 else "")
+    for head, rest in behind_stop(message, tuple(robots)) if has_stop_word(message) else ():
+        turns: Literal["done", "asked"] = "done" if only_waits(head) else "asked"
+        waits = turns == "done" and "then" in message[len(head) : -len(rest)]  # "wait a minute, then ..."
+        called = re.match(rf"{words.of('all')}\s*[,.;:!–-]", rest, re.IGNORECASE)  # "stop everyone! ..."
+        if waits or called or calls_to_stop(rest) or control_of(rest, tuple(robots)):
+            continue
+        wish = words.wish(rest, alone=True) if len(robots) > 1 else None
+        if wish is not None and wish.kind in ("parts", "share", "swap"):
+            return replace(words.counted(wish, rest), turns=turns)
+        order = words.begun(_plain(rest))
+        if turns == "asked" and hearers and _acts(order):
+            out = tuple(name for name in robots if name not in hearers)
+            part = Part("named", order, hearers[0]) if len(hearers) == 1 else Part("all", order, without=out)
+            part = Part("all", order) if stops_all(head) and len(robots) > 1 else part
+            return TeamWish("parts", (part,), turns=turns)
+    return None
 
 
 def is_unread(message: str, robots: Sequence[str]) -> str | None:
@@ -325,6 +363,8 @@ class _Words:
         text = re.sub(
             rf"\b({self._names}),? you (?!two|three|both|all)(?=\w)", r"\1 ", text, flags=re.IGNORECASE
         )
+        if self._hearer and (met := self._match(self.of("joining"), text)):
+            text = f"{self._hearer} and {met['some']} meet {met['where']}"
         told = rf"^{self._names},? (?:please )?(?=(?:tell|ask|let|have|get) {self._names}\b)"
         return re.sub(told, "", text, flags=re.IGNORECASE)
 
@@ -380,21 +420,21 @@ class _Words:
                 return TeamWish("nearest", about=found["place"])
         if found := self._match(self.of("chosen"), bare):
             return TeamWish("why", robot=self._robots.get((found["robot"] or "").lower(), ""))
-        if self._match(self.of("finders"), bare):
-            return TeamWish("about", about="did you find anything?")
         for name, asked in _OF_ONE.items():
-            if found := self._match(self.of(name), bare):
+            if self._match(self.of(name), bare):
                 return TeamWish("about", about=asked, robot=self._called(bare)[0])
-        if self._match(self.of("full"), bare):
-            return TeamWish("about", about="how much battery is left?")
-        if self._match(self.of("doing"), bare):
-            return TeamWish("about", about="what are you doing?")
-        named = re.findall(rf"\b{self._names}\b", bare, re.IGNORECASE)
+        for name, asked in _OF_ALL.items():
+            if self._match(self.of(name), bare):
+                return TeamWish("about", about=asked)
+        if (places := self._whereabouts(bare)) is not None:
+            return places
+        together = self._all_together(bare)
         called = rf"{self._names}\b.*|.*(?<!\bis)(?<!\bwas)(?<!'s)\W{self._names}"
-        if len(named) > 1 or (named and self._match(called, bare)):
+        named = re.findall(rf"\b{self._names}\b", bare, re.IGNORECASE)
+        if not together and (len(named) > 1 or (named and self._match(called, bare))):
             return None
         which = re.sub(rf"^{self.of('which')} (\w+)", r"\1 you", bare, flags=re.IGNORECASE)
-        whom = re.escape(named[0]) if named else self.of("asked")
+        whom = re.escape(together or named[0]) if named else self.of("asked")
         asked = which if which != bare else re.sub(rf"\b{whom}\b", "you", bare, flags=re.IGNORECASE)
         for third, second in _SECOND.items():
             asked = re.sub(
@@ -402,7 +442,26 @@ class _Words:
             )
         if asked == bare or question_of(plain(tokenize(asked))) is None:
             return None
-        return TeamWish("about", about=f"{asked}?", robot=self._robots[named[0].lower()] if named else "")
+        parts = (Part("named", f"{asked}?", robot) for robot in self._called(together))
+        one = self._robots[named[0].lower()] if named and not together else ""
+        return TeamWish("about", tuple(parts), about=f"{asked}?", robot=one)
+
+    def _whereabouts(self, text: str) -> TeamWish | None:
+        """Where robots are, and things beside them: "where are Ada and the box?"."""
+        each = sought(text)
+        robots = [self._robots[one.lower()] for one in each if one.lower() in self._robots]
+        things = [one for one in each if one.lower() not in self._robots]
+        if not robots or not self._hearer or (things and self._hearer in robots):
+            return None
+        parts = [Part("named", "where are you?", robot) for robot in robots]
+        if things:
+            parts.append(Part("named", f"where are {' and '.join(things)}?", self._hearer))
+        return TeamWish("about", tuple(parts))
+
+    def _all_together(self, text: str) -> str:
+        """Several robots of which one thing is asked, as they are named: "what are Ada and Kim doing"."""
+        found = re.search(rf"(?<=\w ){self._names}(?:(?:,? and|,) {self._names})+\b", text, re.IGNORECASE)
+        return found[0] if found and self._called(found[0]) == self._called(text) else ""
 
     # -- sharing ---------------------------------------------------------------------------------------
 
@@ -732,14 +791,18 @@ class _Words:
             return replace(part, order=order) if order else None
         return self._deed(part, order, known, taken)
 
+    def gone(self, order: str) -> str:
+        """Who opens the way to a place, or comes together there, goes there."""
+        for name in ("opening", "meeting"):
+            if found := re.match(self.of(name), order, re.IGNORECASE):
+                order = f"go to{order[found.end() :]}"
+        return order
+
     def _deed(
         self, part: Part, order: str, known: Sequence[Part], taken: re.Match[str] | None
     ) -> Part | None:
         """A part with what it is to do, in words for one robot; None if that is no order."""
-        if opens := re.match(self.of("opening"), order, re.IGNORECASE):
-            order = f"go to{order[opens.end() :]}"
-        if meets := re.match(self.of("meeting"), order, re.IGNORECASE):
-            order = f"go to{order[meets.end() :]}"
+        order = self.gone(order)
         first = order.split(" ")[0].lower()
         verbs, being = lexicon().verbs, lexicon().classes["being"]
         if known and part.who in ("named", "one") and (first,) not in verbs and first not in being:
@@ -752,9 +815,19 @@ class _Words:
         return replace(part, order=order) if acts and (" " in order or first in _ALONE) else None
 
 
+def gathered(message: str) -> str:
+    """Where all that hear a message shall come together, as it is said to one of them: "go to the gate"."""
+    words = _Words(("you",))
+    gone = words.gone(words.begun(_plain(message)))
+    return gone if gone != words.begun(_plain(message)) else message
+
+
 _OF_ONE: Final = {
     "owned": "what are you doing?", "under_way": "what are you doing?", "through": "are you done?",
     "fate": "what is wrong?",
+}  # fmt: skip
+_OF_ALL: Final = {
+    "finders": "did you find anything?", "full": "how much battery is left?", "doing": "what are you doing?",
 }  # fmt: skip
 _Piece = tuple[Who, str, str, bool, str]
 """A part as said: who, in which words, what to do, whether it comes after another one, and after whose."""
@@ -797,7 +870,8 @@ def _shared(order: str, without: tuple[str, ...] = ()) -> TeamWish:
 
 def _acts(order: str) -> bool:
     """Whether words begin with what one can do."""
-    return (order.split(" ")[0].lower(),) in lexicon().verbs
+    first = order.split(" ")[0].lower()
+    return (first,) in lexicon().verbs and first not in lexicon().classes["being"]
 
 
 def _opened(order: str) -> str:

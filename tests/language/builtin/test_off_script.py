@@ -128,6 +128,25 @@ def test_what_must_not_be_done_and_is_not_understood_is_asked_about() -> None:
     assert isinstance(made, Ask) and "block" in made.question
 
 
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        ("where are bay A and post 3?", ["bay A is ", "Post 3 is "]),
+        ("where is bay B and where is bay C", ["bay B is ", "bay C is "]),
+        (
+            "how far are bay A, post 3 and the turning circle?",
+            ["bay A is ", "Post 3 is ", "turning circle is "],
+        ),
+        ("where is bay A?", ["bay A is "]),
+        ("where are bay A and the tractor?", ["bay A is ", "do not know anything about the tractor"]),
+    ],
+)
+def test_each_thing_is_told_that_is_asked_for_in_one(said: str, told: list[str]) -> None:
+    made = decided(said)
+    assert isinstance(made, Answer)
+    assert [one for one in told if one not in made.text] == []
+
+
 def test_where_another_robot_is_that_robot_tells() -> None:
     robots = ("Ada", "Bob")
     asked = ENGINE.decide(situation("where is Bob?", objects=PLACES, robots=robots))

@@ -81,7 +81,6 @@ _ALL_OF_YOU: Final = re.compile(
 _AGAIN: Final = {"again", "retry"}
 _REPEATING: Final = {"again", "once", "another"}
 """In "do it again", "once more", "another time"."""
-_SHORT_WORDS: Final = 3
 _HALTING: Final = ("stop", "clear", "emergency_stop")
 """Controls after which nothing that was said before may still set a robot in motion."""
 
@@ -245,7 +244,7 @@ class ChatInterface(Node):
             self._only_stops(said)
             return
         self._keep_answer(said)
-        if self._tells_apart(said, control) or (control not in _HALTING and self._is_late(said)):
+        if self._tells_apart(said, control) or self._turns(said, control) or self._is_late(said, control):
             return
         if control is None and said.type == "response" and not said.targets and self._questions.robots():
             self._questions.on_input(said)
@@ -253,6 +252,7 @@ class ChatInterface(Node):
         calls, lets_go = calls_to_stop(said.message), texts.is_never_mind(said.message)
         refuses = lets_go or self._says_no(said.message, control)
         called = self._called_off(said) if calls else []
+        corrected: list[str] = []
         hear: list[tuple[str, ChatFeedback | None]] = []
         for target in self._meant(said, control, calls=calls, refuses=refuses):
             question = self._questions.newest(target) if said.type == "response" else None
@@ -271,7 +271,7 @@ class ChatInterface(Node):
             if wanted_back:
                 self._leave(target, said)
             elif turns and (objects or only_takes_back(said.message, moves=moves)):
-                self._mailboxes.post(target, self._correction(target, said, moves=moves))
+                corrected.append(target)
             elif halts and control not in _HALTING:
                 self._control(target, "stop", said, more=control is None)
             elif control is not None and not (
@@ -284,12 +284,29 @@ class ChatInterface(Node):
                 self._say((target,), text, "error", said.id)
             else:
                 hear.append((target, question))
-        self._hear_all(hear, said)
+        self._hear_all(hear, corrected, said)
         self._questions.on_input(said)
 
-    def _is_late(self, said: ChatInput) -> bool:
-        """Whether a message answers a question that is settled; that is told."""
-        if late := self._questions.is_late(said):
+    def _turns(self, said: ChatInput, control: Control | None) -> bool:
+        """Whether there is an order behind words of stopping, which is taken up while all stand then."""
+        wish = self._missions.turned(said) if control is None and said.type != "response" else None
+        robots = self._meant(said, control, calls=True, refuses=False) if wish is not None else []
+        if wish is None or not robots:
+            return wish is not None  # nobody is there
+        hearers = [name for target in said.targets if (name := self._presence.resolve(target))] or robots[:1]
+        if wish.turns == "asked":
+            for name in filter(self._is_under_way, robots):
+                self._control(name, "stop", said)
+            robots = []
+        named = [part.robot for part in wish.parts if part.robot]
+        team = [*dict.fromkeys((*hearers, *named))] if len(hearers) > 1 else hearers
+        self._mailboxes.post(hearers[0], self._correction(team, said, robots))
+        self._questions.on_input(said)
+        return True
+
+    def _is_late(self, said: ChatInput, control: Control | None) -> bool:
+        """Whether a message answers a question that is settled, and is no stop; that is told."""
+        if late := control not in _HALTING and self._questions.is_late(said):
             self._say(said.targets, texts.settled(said.message), "response", said.id)
         return late
 
@@ -302,8 +319,12 @@ class ChatInterface(Node):
             self._say(said.targets, texts.SAID_AGAIN, "info")
         return count > 0
 
-    def _hear_all(self, hear: Sequence[tuple[str, ChatFeedback | None]], said: ChatInput) -> None:
+    def _hear_all(
+        self, hear: Sequence[tuple[str, ChatFeedback | None]], corrected: Sequence[str], said: ChatInput
+    ) -> None:
         """Have something understood by those it was said to, each with the question that it answers."""
+        if corrected:
+            self._mailboxes.post(corrected[0], self._correction(corrected, said, corrected))
         team = tuple(target for target, _ in hear)
         if len(hear) > 1 and all(question is None for _, question in hear):
             self._hear(team[0], said, None, team)
@@ -322,20 +343,31 @@ class ChatInterface(Node):
             question: What it answers.
             team: All that hear it with this one: one understands it, and the others only what is not for all.
         """
-        names = self._presence.names()
-        decision = self._offered.decided(target, said, names) if question is None else None
-        if decision is not None:
-            self._hand_on(target, decision, said)
-            for mate in self._missions.mates(target) - {*said.targets}:
-                other = self._offered.decided(mate, said, names)
-                if other is not None and self._offered.is_asked(mate):
-                    self.publish(topics.PLAN_DECISION, other)
-        elif question is None and (self._set_aside(target, said) or self._undoes(target, said)):
+        if question is None and (
+            self._decides(target, said) or self._set_aside(target, said) or self._undoes(target, said)
+        ):
             pass
         elif self._understands(target, said, question, team):
             return
         for other_robot in team[1:]:
             self._hear(other_robot, said, None)
+
+    def _decides(self, target: str, said: ChatInput) -> bool:
+        """Whether a message is a yes or a no to steps of a robot, or of those it has just asked for."""
+        names = self._presence.names()
+        own = self._offered.decided(target, said, names)
+        asked_for_others = self._offered.newest(target) is None and self._offered.is_asked(target)
+        if own is not None:
+            self._hand_on(target, own, said)
+        elif not asked_for_others:
+            return False
+        mates = [
+            mate for mate in self._missions.mates(target) - {*said.targets} if self._offered.is_asked(mate)
+        ]
+        others = [one for mate in mates if (one := self._offered.decided(mate, said, names)) is not None]
+        for other in others:
+            self.publish(topics.PLAN_DECISION, other)
+        return own is not None or bool(others)
 
     def _understands(
         self, target: str, said: ChatInput, question: ChatFeedback | None, team: Sequence[str]
@@ -493,13 +525,19 @@ class ChatInterface(Node):
         return asked and assent_of(said.message, self._presence.names()) is False
 
     def _work(
-        self, target: str, said: ChatInput, ours: str = "", team: Sequence[str] = ()
+        self,
+        target: str,
+        said: ChatInput,
+        ours: str = "",
+        team: Sequence[str] = (),
+        hear: Callable[[str], None] | None = None,
     ) -> Callable[[], Awaitable[None]]:
         halts, left = dict(self._halts), [*team[1:]]
 
         def others() -> None:
             while left:
-                self._hear(left.pop(0), said, None)
+                name = left.pop(0)
+                self._hear(name, said, None) if hear is None else hear(name)
 
         async def understood() -> bool:
             """Whether it was an order to all together."""
@@ -529,17 +567,25 @@ class ChatInterface(Node):
 
         return work
 
-    def _correction(self, target: str, said: ChatInput, *, moves: bool) -> Callable[[], Awaitable[None]]:
-        """Of "wait, not that one": it is read while the robot stands, and it goes on standing in doubt."""
-        work = self._work(target, said)
-        held = self._holds.begin(said, (target,), "reading") if moves else ""
+    def _correction(
+        self, team: Sequence[str], said: ChatInput, stand: Sequence[str]
+    ) -> Callable[[], Awaitable[None]]:
+        """Of "wait, not that one": it is read while robots stand, and they go on standing in doubt."""
+        moving = [name for name in stand if self._known.moves(name, self._presence.get(name))]
+        held = self._holds.begin(said, tuple(moving), "reading") if moving else ""
+        alone: list[str] = []
+
+        def hear(name: str) -> None:
+            alone.append(name)
+            self._mailboxes.post(name, self._correction((name,), said, (name,)))
 
         async def correct() -> None:
-            before = self._known.changes(target)
+            before = {name: self._known.changes(name) for name in moving}
             try:
-                await work()
-                if moves and self._known.changes(target) == before:
-                    self._control(target, "stop", said)
+                await self._work(team[0], said, team=team if len(team) > 1 else (), hear=hear)()
+                for name in moving:
+                    if name not in alone and self._known.changes(name) == before[name]:
+                        self._control(name, "stop", said)
             finally:
                 self._holds.end(held)
 
@@ -703,7 +749,8 @@ class ChatInterface(Node):
         if control == "start" and (still := self._called_but_still(target, said)):
             alone = sentence(STAND_ON, robots=", ".join(still))
             reply = together(sentence(reply), alone)
-        if more and len(said.message.split()) > _SHORT_WORDS:  # there may be an order in it
+        longest = texts.FEW_WORDS if more else texts.TALK_WORDS if control == "stop" else texts.MAX_CHARS
+        if len(said.message.split()) > longest:  # there may be an order in it
             reply = together(sentence(reply), texts.REST_LEFT)
         self._known.note(target, said.message, reply)
         asked = self._questions.newest(target) if state == "held" else None

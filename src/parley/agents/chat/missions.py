@@ -148,7 +148,7 @@ class Missions:
             halts: How often each robot had been told to stop when it was said.
             team: All it was said to, if that is more than one.
         """
-        wish = self._talk.wish(said.message, target)
+        wish = self.turned(said) or self._talk.wish(said.message, target)
         if (reasons := self._reasons(target, said, wish)) is not None:
             self._say((target,), reasons, said)
             return True
@@ -183,6 +183,10 @@ class Missions:
         else:
             self._say((target,), mission.text, said, mission.choices, asks=texts.asks_back(mission.text))
         return True
+
+    def turned(self, said: ChatInput) -> TeamWish | None:
+        """What is said to be done behind words of stopping; None if whoever hears it reads that itself."""
+        return self._talk.turned(said)
 
     def _progress(
         self, target: str, wish: TeamWish, said: ChatInput
@@ -274,7 +278,7 @@ class Missions:
             for share in mission.shares
         ]
         asked = frozenset(name for name, ruling in rulings.items() if ruling.outcome == "asked")
-        for name in asked:
+        for name in {target, *asked} if asked else ():  # the hearer may be the one that is told yes
             self._mates[name] = asked
         reply = together(WOULD_DO if asked else DOES, *told, mission.text, SHALL_I if asked else "")
         robots = tuple(dict.fromkeys((target, *ids)))

@@ -27,10 +27,12 @@ from parley.team.wishes import (
     Part,
     TeamWish,
     asked_by_name,
+    gathered,
     is_in_turn,
     is_of_several,
     is_unread,
     team_wish,
+    turned_wish,
 )
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
@@ -43,6 +45,7 @@ JUDGED: Final = sentence("We can wait until that is done, but not judge what is 
 JUDGE_YOURSELF: Final = "We cannot judge that for each other. Say “{words}” once it is so."
 TAKES_OVER: Final = "Let {other} take over from {robot}"
 IN_FULL: Final = sentence("I do not know what you mean by that. Please say it in full.")
+STOPPED: Final = sentence("you told me to stop")
 LEFT_OUT: Final = "What {robots} had to do before is left out."
 GIVES_UP: Final = "{robot} gives up what is left of its plan."
 CHANGES: Final = "{robot} gets no part: it would change what it is at. Please tell it by itself."
@@ -131,6 +134,13 @@ class TeamTalk:
         self._survey, self._offered = survey, offered
         self._given_on: Latest[str, _GivenOn] = Latest()
 
+    def turned(self, said: ChatInput) -> TeamWish | None:
+        """What is said to be done behind words of stopping; None if whoever hears it reads that itself."""
+        if self._survey is None:
+            return None
+        hearers = [name for target in said.targets if (name := self._presence.resolve(target))]
+        return turned_wish(said.message, self._presence.ever(), hearers)
+
     def wish(self, message: str, hearer: str = "") -> TeamWish | None:
         """How words spread work over robots, or ask another one than `hearer`; None if they do not."""
         if self._survey is None:
@@ -162,11 +172,12 @@ class TeamTalk:
         if self._survey is None:
             return None
         plain = wish is None
-        wish = wish or TeamWish("parts", (Part("all", said.message),))
+        wish = wish or TeamWish("parts", (Part("all", gathered(said.message)),))
         if wish.kind == "about":
             if (told := await self._asked(wish, said)) is not None:
                 return told
-            wish = TeamWish("parts", (Part("named" if wish.robot else "each", wish.about, wish.robot),))
+            one = Part("named" if wish.robot else "each", wish.about, wish.robot)
+            wish = TeamWish("parts", wish.parts or (one,))
         members = {
             name: status
             for name in team or self._presence.names()
@@ -186,6 +197,8 @@ class TeamTalk:
         mission = await work.parts(wish, target)
         if mission is not None and wish.anew:
             mission = self._afresh(mission, target)
+        if mission is not None and wish.turns:
+            mission = self._turned(mission, wish)
         if mission is None or not mission.shares or all(part.who not in _EVERYBODY for part in wish.parts):
             return mission
         spared = {name for part in wish.parts for name in part.without}
@@ -251,6 +264,18 @@ class TeamTalk:
             mission, shares=shares, text=together(text, mission.text), relieved={**mission.relieved, **gone}
         )
 
+    def _turned(self, mission: Mission, wish: TeamWish) -> Mission:
+        """The same in place of what those who do it are at; after a yes if somebody called to stop."""
+        busy = sorted(share.robot for share in mission.shares if self.is_busy(share.robot))
+        why = STOPPED if wish.turns == "asked" else ""
+        shares = tuple(
+            replace(one, drops=CLEAR if one.robot in busy else one.drops, needs_yes=one.needs_yes or why)
+            for one in mission.shares
+        )
+        waiting = {one.robot: offer.id for one in shares if (offer := self._offered(one.robot)) is not None}
+        text = together(sentence(LEFT_OUT, robots=listed(busy)) if busy and not why else "", mission.text)
+        return replace(mission, shares=shares, text=text, dropped={**waiting, **mission.dropped})
+
     def _swapped(self, named: Sequence[str], members: Mapping[str, ActorStatus]) -> Mission | None:
         """Two robots do what is left of each other's plans; None: none of them have such."""
         left = {name: tasks for name in members if (tasks := self.left(name))}
@@ -281,9 +306,11 @@ class TeamTalk:
 
     async def _asked(self, wish: TeamWish, said: ChatInput) -> Mission | None:
         """A question about one robot or all, answered by whom it is about; None: that takes deeds."""
-        asked = (wish.robot,) if wish.robot else self._presence.ever()
+        asked_all = dict.fromkeys((wish.robot,) if wish.robot else self._presence.ever(), wish.about)
+        words = {part.robot: part.order for part in wish.parts} or asked_all
+        asked = [*words]
         names = [name for name in asked if self._presence.is_there(name)]
-        situations = [await self._situation(robot, wish.about, said) for robot in names]
+        situations = [await self._situation(robot, words[robot], said) for robot in names]
         answers = await asyncio.gather(*map(self._language.interpret, situations))
         if any(answer.queue for answer in answers):
             return None

@@ -83,6 +83,10 @@ _NEVER_MIND: Final = re.compile(
 _QUOTED: Final = re.compile(r"“[^”]*”")
 _OFFERS_HELP: Final = re.compile(r"\b(?:do for you|help)\b")
 
+FEW_WORDS: Final = 3
+"""With more words than these a message that is no mere call to stop may say more than that."""
+TALK_WORDS: Final = 6
+"""With more words than these also a mere call to stop may."""
 LEFT: Final = "All right, then I leave it."
 ONLY_LOOKS: Final = "You may look and stop, but not give orders here."
 REST_LEFT: Final = sentence("If there was more in what you said, please say it again.")
@@ -116,7 +120,8 @@ def still_standing(reply: str, message: str, *, paused: bool) -> str:
         paused: Whether it has something to go on with.
     """
     if calls_to_stop(message) and not only_takes_back(message):
-        reply = sentence(_NOTHING_TO_DO["stop"])
+        more = len(message.split()) > TALK_WORDS
+        reply = together(sentence(_NOTHING_TO_DO["stop"]), REST_LEFT if more else "")
     elif message.rstrip().endswith("?"):
         return reply
     return together(reply, sentence(SAY_CARRY_ON)) if paused and SAY_CARRY_ON not in reply else reply

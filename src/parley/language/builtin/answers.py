@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Callable, Container, Sequence
+from dataclasses import replace
 from typing import Final
 
 from parley.language.base import Situation
@@ -20,7 +21,7 @@ from parley.language.dialogue.map_words import Named, distance_m, lies, named, n
 from parley.language.lexicon import word_set
 from parley.world.object_map import MapObject
 
-__all__ = ["answer", "look_asked_for", "most_asked"]
+__all__ = ["answer", "look_asked_for", "most_asked", "sought"]
 
 
 _IN_M: Final = 0.5
@@ -35,14 +36,18 @@ def answer(
     before: MapObject | None = None,
 ) -> Answer:
     """What is known about what is asked for; "it" is what was spoken of `before`."""
+    if each := sought(situation.message):
+        asked = [replace(situation, message=f"where is {one}?") for one in each]
+        found = [answer(one, reader(one.message), lexicon, reader) for one in asked]
+        return Answer(
+            " ".join(one.text for one in found), tuple(name for one in found for name in one.sources)
+        )
     fillers = [*(filler for wish in reading.wishes for filler in wish.fillers), *reading.loose]
     thing = next((filler for filler in fillers if filler.role == "T"), None)
     if len(most := most_asked(tokenize(situation.message), situation, lexicon)) == 1:
         return Answer(_lying(situation, most[0]))
-    if thing is None and _is_about_failure(situation, lexicon):
-        return _spoken_of(situation, before)
     if thing is None:
-        return _kept(situation, lexicon) or Answer(_NO_ANSWER)
+        return _without_thing(situation, lexicon, before)
     mention = link(thing.words, thing.head, situation.objects, lexicon)
     if mention.kind == "pronoun":
         return _spoken_of(situation, before)
@@ -65,6 +70,31 @@ def answer(
         return Answer(_NO_ANSWER)
     shown = with_article(as_said(mention.text, situation.message))
     return _kept(situation, lexicon) or Answer(f"I do not know anything about {shown}.", unknown=shown)
+
+
+def _without_thing(situation: Situation, lexicon: Lexicon, before: MapObject | None) -> Answer:
+    """What is known where the words were not read as asking for a thing, though they may name one."""
+    if _is_about_failure(situation, lexicon):
+        return _spoken_of(situation, before)
+    names = named_alone(tokenize(situation.message), situation.objects, lexicon)
+    if "where" in situation.message.lower() and len(names) == 1:  # "where is area A?"
+        return Answer(_lying(situation, names[0]))
+    return _kept(situation, lexicon) or Answer(_NO_ANSWER)
+
+
+def sought(message: str) -> tuple[str, ...]:
+    """The things of "where are the pump, the gate and Kim?"; empty if fewer are asked for, or it is more."""
+    found = _SOUGHT.fullmatch(" ".join(message.split()))
+    return tuple(re.split(_AND, found["things"], flags=re.IGNORECASE)) if found is not None else ()
+
+
+_AND: Final = r",? and (?:where(?:'s| is| are) )?|, "
+_ONE: Final = r"(?:the |my |our )?(?!(?:and|the) )\w+(?: (?!(?:and|at|in|by|on|of|from|away)\b)\w+){0,2}"
+_SOUGHT: Final = re.compile(
+    rf"(?:\w+, )?(?:where|how far)(?:'s| is| are) (?P<things>{_ONE}(?:(?:{_AND}){_ONE})+)"
+    r"(?: away| from (?:here|you))?\s*\?*",
+    re.IGNORECASE,
+)
 
 
 def _among(things: Sequence[MapObject], situation: Situation, lexicon: Lexicon) -> Answer:
