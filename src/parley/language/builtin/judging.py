@@ -19,6 +19,10 @@ _THERE: Final = word_set("there here visible present still in on at near by unde
 _WITHIN: Final = frozenset({"in", "inside", "within", "on", "at"})
 _BE: Final = frozenset({"is", "are"})
 _SOMEBODY: Final = frozenset({"anybody", "anyone", "somebody", "someone", "nobody"})
+_LEFT: Final = frozenset(
+    {"left", "forgot", "forgotten", "dropped", "dumped", "abandoned", "hidden", "planted"}
+)
+_LYING: Final = frozenset({"lying", "standing", "behind", "around", "about", "unattended", "somewhere"})
 _CLEAR: Final = frozenset({"clear", "free", "empty", "unobstructed", "vacant"})
 _TAKEN: Final = frozenset({"blocked", "obstructed", "occupied", "cluttered", "full"})
 
@@ -54,7 +58,7 @@ def asked(request: str) -> Asked:
     words = tuple(_LYING.sub("", re.sub("['’]s ", " is ", request.lower())).rstrip(" .?!").split())
     if words[:1] and words[0] in _ASKING:
         return Asked("state") if words[0] in OPEN else _stated(words[1:])
-    if words[:1] == ("there",) and {*words[1:2]} & _BE:
+    if (words[:1] == ("there",) and {*words[1:2]} & _BE) or {*words[:1]} & _SOMEBODY:
         return _stated(words)
     at = next((n for n in range(len(words) - 1) if words[n] == "for"), None)
     if at is not None:
@@ -72,6 +76,8 @@ _LYING: Final = re.compile(
 
 def _stated(words: tuple[str, ...]) -> Asked:
     """What a statement says to be there, or to be free."""
+    if (left := _left_behind(words)) is not None:
+        return left
     at = next((n for n, word in enumerate(words) if word in _BE), None)
     if at is None:
         return Asked("state")
@@ -89,6 +95,27 @@ def _stated(words: tuple[str, ...]) -> Asked:
     thing = words[:at]
     place = words[at + 2 :] if {*words[at + 1 : at + 2]} & _WITHIN else ()
     return Asked("thing", _bare(thing), place, thing[:1] != ("nobody",), _is_unwanted(thing))
+
+
+def _left_behind(words: tuple[str, ...]) -> Asked | None:
+    """What somebody may have left, or may have been left: it should not be there, whatever it is."""
+    at = next((n for n, word in enumerate(words) if word in _LEFT), None)
+    if at is None or not at:
+        return None
+    by_somebody, passive = words[0] in _SOMEBODY, words[at - 1] in ("was", "were", "been")
+    if passive and {*words[at + 1 : at + 2]} - _LYING - _THERE:
+        return None  # "a door was left open"
+    thing, rest = (words[:at], words[at + 1 :]) if passive else _placed(words[at + 1 :])
+    if passive:
+        thing, rest = thing[: next(n for n, word in enumerate(thing) if word in _AUXILIARY)], _placed(rest)[1]
+    thing = tuple(word for word in thing if word not in _LYING)
+    if not thing or not (by_somebody or passive) or {*thing} & {"the", "it", "they", "them"}:
+        return None
+    holds = words[0] != "nobody" and thing[0] not in ("no", "nothing")
+    return Asked("thing", _bare(thing), rest, holds, holds)
+
+
+_AUXILIARY: Final = ("was", "were", "has", "have", "had", "been")
 
 
 def _placed(words: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
