@@ -485,6 +485,13 @@ async def test_an_order_behind_a_stop_is_taken_up_once_while_the_others_stand(
         assert len(told_how()) == 1
 
 
+async def test_what_is_no_work_those_who_are_stopped_answer_themselves() -> None:
+    async with hall() as home:
+        await told(home, "emergency stop all", *ROBOTS)
+        reply = await told(home, "thank you, that was good work", *ROBOTS)
+        assert "No robot is left" not in reply.message
+
+
 async def test_words_to_a_team_that_are_not_read_are_no_order_to_whoever_hears_them() -> None:
     async with hall() as home:
         for text in ("Half of you go to the pump.", "Make sure there's always one of you at the dock."):

@@ -234,6 +234,23 @@ def test_what_is_asked_of_several_by_name_each_of_them_is_asked(say: str, asked:
 
 
 @pytest.mark.parametrize(
+    ("say", "about"),
+    [("who's stuck?", "what is wrong?"), ("who's got the least battery?", "how much battery is left?")],
+)
+def test_who_of_all_it_is_all_are_asked(say: str, about: str) -> None:
+    wish = team_wish(say, ROBOTS, "Ada")
+    assert wish is not None
+    assert (wish.kind, wish.robot, wish.about) == ("about", "", about)
+
+
+@pytest.mark.parametrize("say", ["what's Kim found?", "What has Kim found?"])
+def test_what_one_has_done_it_is_asked_itself(say: str) -> None:
+    wish = team_wish(say, ROBOTS, "Ada")
+    assert wish is not None
+    assert (wish.robot, wish.about.lower()) == ("Kim", "what have you found?")
+
+
+@pytest.mark.parametrize(
     ("say", "parts"),
     [
         (

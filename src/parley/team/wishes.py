@@ -440,7 +440,9 @@ class _Words:
             asked = re.sub(
                 rf"(?:\b{third}|(?<=\w){third}) you\b", f"{second} you", asked, flags=re.IGNORECASE
             )
-        if asked == bare or question_of(plain(tokenize(asked))) is None:
+        has = re.sub(r"\bare you\b", "have you", asked)  # "what's Ada found?"
+        asked = next((one for one in (asked, has) if question_of(plain(tokenize(one)))), "")
+        if not asked or asked == bare:
             return None
         parts = (Part("named", f"{asked}?", robot) for robot in self._called(together))
         one = self._robots[named[0].lower()] if named and not together else ""
@@ -827,7 +829,8 @@ _OF_ONE: Final = {
     "fate": "what is wrong?",
 }  # fmt: skip
 _OF_ALL: Final = {
-    "finders": "did you find anything?", "full": "how much battery is left?", "doing": "what are you doing?",
+    "finders": "did you find anything?", "ailing": "what is wrong?", "full": "how much battery is left?",
+    "doing": "what are you doing?",
 }  # fmt: skip
 _Piece = tuple[Who, str, str, bool, str]
 """A part as said: who, in which words, what to do, whether it comes after another one, and after whose."""

@@ -499,9 +499,7 @@ class _Work:
             taken = {share.robot for share in self._shares}
             own = self._of(part, taken)
             if not own:
-                left = sentence("No robot is left for “{words}”, so nothing of that has begun.", words=words)
-                gone = sentence("{robot} is not ready, so nothing of that has begun.", robot=part.robot)
-                return Mission(text=gone if part.robot else left)
+                return self._left_over(part, words)
             begun = len(self._shares)
             stops = await self._part(part, words, own, wish)
             if stops is not None:
@@ -521,6 +519,14 @@ class _Work:
             self._notes.append(sentence(LEFT_OUT, robots=listed(given_up)))
         text = together(*dict.fromkeys(self._notes))
         return Mission(shares, text, dropped=self._dropped, stands=tuple(self._stands))
+
+    def _left_over(self, part: Part, words: str) -> Mission | None:
+        """What is told of a part that nobody can do; None: each who heard the words may have an answer."""
+        if self._plain:
+            return None
+        left = sentence("No robot is left for “{words}”, so nothing of that has begun.", words=words)
+        gone = sentence("{robot} is not ready, so nothing of that has begun.", robot=part.robot)
+        return Mission(text=gone if part.robot else left)
 
     def _but_one(self, parts: Sequence[Part]) -> list[Part]:
         """The parts, where some stay whoever they are: those are who is left by the others' part."""
