@@ -60,6 +60,8 @@ def test_sentences_of_the_data_are_read_as_it_says(kind: str, say: str) -> None:
         ),
         ("Ada broke down. Kim, finish its box", [Part("named", "", "Kim", of="Ada")]),
         ("Ada's stuck, someone take over", [Part("one", "", of="Ada")]),
+        ("somebody else do Ada's share", [Part("one", "", of="Ada")]),
+        ("Kim, finish what Ada had to do", [Part("named", "", "Kim", of="Ada")]),
         ("station one robot at each door", [Part("all", "go to every door")]),
         (
             "let one robot check the gate and one stay at the dock",

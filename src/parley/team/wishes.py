@@ -696,17 +696,23 @@ class _Words:
         small = r"(?:(?:so|and|then|please|can|could),? )*"
         if self._hearer and re.search(r"\w+s over\b|\btake over\b|\w+s (?:in )?for\b|^(?:let|have) ", text):
             text = re.sub(r"\b(from|for) you\b", rf"\1 {self._hearer}", text, flags=re.IGNORECASE)
-            own = r"\byour (?=(?:part|work|job|rest|round|plan|tasks?|place)\b)"
+            own = r"\byour (?=(?:part|share|work|job|rest|round|plan|tasks?|place)\b)"
             text = re.sub(own, f"{self._hearer}'s ", text, flags=re.IGNORECASE)
+        if self._hearer:  # "can you do Ada's part?"
+            text = re.sub(r"^(?:can|could|would|will) you ", f"{self._hearer} ", text, flags=re.IGNORECASE)
         ails = rf"(?P<of>{self._names}) ?{self.of('trouble')} ?[,.;:–-]+ ?{small}"
         found = (
             self._match(rf"{who} {self.of('takeover')}", text)
             or self._match(self.of("givenaway"), text)
             or self._match(rf"{ails}{who} {self.of('stepsin')}", text)
         )
-        if found is None or (found["robot"] or "").lower() == found["of"].lower():
+        if found is None:
             return None
-        robot, of = self._robots.get((found["robot"] or "").lower(), ""), self._robots[found["of"].lower()]
+        said = found.groupdict()
+        robot = self._robots.get((said["robot"] or "").lower(), "")
+        of = self._robots[(said["of"] or said["of2"]).lower()]
+        if robot == of:
+            return None
         return TeamWish("parts", (Part("named" if robot else "one", "", robot, of=of),))
 
     def _pieces(self, text: str) -> list[_Piece]:

@@ -114,6 +114,8 @@ def test_what_is_about_the_world_is_left_to_others(sentence: str) -> None:
             "I was to go to the gate"),
         ("how much battery is left?", Dialogue(battery=0.41), "41 %"),
         ("how much battery is left?", Dialogue(), "cannot tell"),
+        ("how are you?", Dialogue(battery=0.9), "I am well"),
+        ("how are you?", Dialogue(battery=0.04), "My battery is 4 % full."),
     ],
 )  # fmt: skip
 async def test_questions_are_answered_from_the_state(message: str, dialogue: Dialogue, words: str) -> None:

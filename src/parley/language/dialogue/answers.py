@@ -486,6 +486,14 @@ def _things(situation: Situation, about: str) -> tuple[MapObject, ...]:
     return names[0].things if len(names) == 1 else ()
 
 
+def _well(situation: Situation, about: str) -> str:
+    battery = situation.dialogue.battery
+    return "I am well, thank you." if battery is None or battery > _LOW else _battery(situation, about)
+
+
+_LOW: Final = 0.2
+
+
 def _battery(situation: Situation, about: str) -> str:
     battery = situation.dialogue.battery
     return (
@@ -579,7 +587,7 @@ _TOPICS: Final[dict[str, Callable[[Situation, str], str]]] = {
     "battery": _battery, "able": _able, "name": _name, "time": _time, "told_about": _told_about,
     "told_all": _told_all, "difference": _difference,
     "hear": lambda situation, about: "Yes, I hear you: I read every word.",
-    "how_are_you": lambda situation, about: f"I am well, thank you. {_doing(situation, about)}",
+    "how_are_you": lambda situation, about: f"{_well(situation, about)} {_doing(situation, about)}",
     "in_the_way": lambda situation, about: "Sorry. Tell me where I shall go.",
     "speed": lambda situation, about: _SPEED,
     "will_tell": lambda situation, about: f"I tell you as soon as I am done. {_doing(situation, about)}",
