@@ -237,7 +237,7 @@ def test_what_is_asked_of_several_by_name_each_of_them_is_asked(say: str, asked:
 
 @pytest.mark.parametrize(
     ("say", "about"),
-    [("who's stuck?", "what is wrong?"), ("who's got the least battery?", "how much battery is left?")],
+    [("who's stuck?", "what are you doing?"), ("who's got the least battery?", "how much battery is left?")],
 )
 def test_who_of_all_it_is_all_are_asked(say: str, about: str) -> None:
     wish = team_wish(say, ROBOTS, "Ada")

@@ -835,7 +835,7 @@ _OF_ONE: Final = {
     "fate": "what is wrong?",
 }  # fmt: skip
 _OF_ALL: Final = {
-    "finders": "did you find anything?", "ailing": "what is wrong?", "full": "how much battery is left?",
+    "finders": "did you find anything?", "full": "how much battery is left?",
     "doing": "what are you doing?",
 }  # fmt: skip
 _Piece = tuple[Who, str, str, bool, str]

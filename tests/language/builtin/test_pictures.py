@@ -91,6 +91,7 @@ def test_what_should_not_be_there_is_told_from_what_is_needed(request_: str, nee
         ("there are no bags in bay 1", at("bag", 0.2), True, "a bag in bay 1"),
         ("whether anybody left a bag lying about", at("black bag", 0.2), True, "a black bag"),
         ("whether someone dumped rubbish in bay 1", at("crate", 0.2), False, "no rubbish in bay 1"),
+        ("whether someone left something in bay 1", at("cup", 3.0), False, "I see nothing in bay 1"),
         ("nobody left a bag in bay 1", at("bag", 0.2), True, "a bag in bay 1"),
         ("whether bay 1 is clear", at("blue cylinder", 1.0), True, "a blue cylinder at the edge of bay 1"),
         ("whether bay 1 is clear", at("bay 1", 0.0), False, "nothing standing in bay 1"),

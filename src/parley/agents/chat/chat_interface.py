@@ -296,7 +296,7 @@ class ChatInterface(Node):
         hearers = [name for target in said.targets if (name := self._presence.resolve(target))] or robots[:1]
         if wish.turns == "asked":
             for name in filter(self._is_under_way, robots):
-                self._control(name, "stop", said)
+                self._control(name, "stop", said, more=False)
             robots = []
         named = [part.robot for part in wish.parts if part.robot]
         team = [*dict.fromkeys((*hearers, *named))] if len(hearers) > 1 else hearers
@@ -585,7 +585,7 @@ class ChatInterface(Node):
                 await self._work(team[0], said, team=team if len(team) > 1 else (), hear=hear)()
                 for name in moving:
                     if name not in alone and self._known.changes(name) == before[name]:
-                        self._control(name, "stop", said)
+                        self._control(name, "stop", said, more=False)
             finally:
                 self._holds.end(held)
 
@@ -708,8 +708,11 @@ class ChatInterface(Node):
 
     # -- control ---------------------------------------------------------------------------------------
 
-    def _control(self, target: str, control: Control, said: ChatInput, *, more: bool = False) -> None:
-        """Act at once, ahead of anything that is still being understood."""
+    def _control(self, target: str, control: Control, said: ChatInput, *, more: bool | None = None) -> None:
+        """Act at once, ahead of anything that is still being understood.
+
+        `more`: whether nobody reads what else is in the message; None: there is hardly more in it.
+        """
         self._call_off(target, control, said)
         if control in _HALTING:
             self._halt(target)
@@ -749,7 +752,8 @@ class ChatInterface(Node):
         if control == "start" and (still := self._called_but_still(target, said)):
             alone = sentence(STAND_ON, robots=", ".join(still))
             reply = together(sentence(reply), alone)
-        longest = texts.FEW_WORDS if more else texts.TALK_WORDS if control == "stop" else texts.MAX_CHARS
+        hardly = more is None and control == "stop"
+        longest = texts.FEW_WORDS if more else texts.TALK_WORDS if hardly else texts.MAX_CHARS
         if len(said.message.split()) > longest:  # there may be an order in it
             reply = together(sentence(reply), texts.REST_LEFT)
         self._known.note(target, said.message, reply)

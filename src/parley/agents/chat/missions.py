@@ -13,7 +13,7 @@ from parley.agents.chat.answering import Answering
 from parley.agents.chat.mission_board import MissionBoard
 from parley.agents.chat.situations import Situations
 from parley.agents.chat.team import GIVES_UP, Mission, Share, TeamTalk
-from parley.agents.planner.asking import SHALL_I, counted
+from parley.agents.planner.asking import SHALL_I, counted, wish_of
 from parley.agents.planner.check import complete_calls
 from parley.agents.presence import Presence
 from parley.errors import LanguageError
@@ -281,6 +281,8 @@ class Missions:
         for name in {target, *asked} if asked else ():  # the hearer may be the one that is told yes
             self._mates[name] = asked
         reply = together(WOULD_DO if asked else DOES, *told, mission.text, SHALL_I if asked else "")
+        if asked == {target} == {*ids}:  # it asks for itself
+            reply = together(wish_of(rulings[target].lines, rulings[target].why), mission.text, SHALL_I)
         robots = tuple(dict.fromkeys((target, *ids)))
         given = {share.robot: part for share, part in zip(mission.shares, told, strict=True) if share.why}
         for name in robots:

@@ -149,7 +149,8 @@ def _thing(scene: _Scene, wish: Asked, name: str) -> InspectionReport:
         )  # fmt: skip
     other = f", but {' and '.join(scene.told(one) for one in found)}" if found else ""
     if wish.unwanted or not wish.holds:
-        text = f"I see no {name or 'such thing'}{scene.there}{other}.".replace("no anything", "nothing")
+        text = f"I see no {name or 'such thing'}{scene.there}{other}."
+        text = text.replace("no anything", "nothing").replace("no something", "nothing")
         more = "" if found else scene.also
         unwanted = wish.unwanted
         return InspectionReport(
