@@ -298,6 +298,7 @@ class ChatInterface(Node):
             for name in filter(self._is_under_way, robots):
                 self._control(name, "stop", said, more=False)
             robots = []
+        robots = [name for name in robots if self._is_under_way(name)]
         named = [part.robot for part in wish.parts if part.robot]
         team = [*dict.fromkeys((*hearers, *named))] if len(hearers) > 1 else hearers
         self._mailboxes.post(hearers[0], self._correction(team, said, robots))
@@ -324,7 +325,7 @@ class ChatInterface(Node):
     ) -> None:
         """Have something understood by those it was said to, each with the question that it answers."""
         if corrected:
-            self._mailboxes.post(corrected[0], self._correction(corrected, said, corrected))
+            self._mailboxes.post(corrected[0], self._correction(corrected, said, self._moving(corrected)))
         team = tuple(target for target, _ in hear)
         if len(hear) > 1 and all(question is None for _, question in hear):
             self._hear(team[0], said, None, team)
@@ -567,23 +568,25 @@ class ChatInterface(Node):
 
         return work
 
+    def _moving(self, robots: Sequence[str]) -> list[str]:
+        return [name for name in robots if self._known.moves(name, self._presence.get(name))]
+
     def _correction(
         self, team: Sequence[str], said: ChatInput, stand: Sequence[str]
     ) -> Callable[[], Awaitable[None]]:
-        """Of "wait, not that one": it is read while robots stand, and they go on standing in doubt."""
-        moving = [name for name in stand if self._known.moves(name, self._presence.get(name))]
-        held = self._holds.begin(said, tuple(moving), "reading") if moving else ""
+        """Of "wait, not that one": it is read while robots `stand`, and they go on standing in doubt."""
+        held = self._holds.begin(said, tuple(stand), "reading") if stand else ""
         alone: list[str] = []
 
         def hear(name: str) -> None:
             alone.append(name)
-            self._mailboxes.post(name, self._correction((name,), said, (name,)))
+            self._mailboxes.post(name, self._correction((name,), said, self._moving((name,))))
 
         async def correct() -> None:
-            before = {name: self._known.changes(name) for name in moving}
+            before = {name: self._known.changes(name) for name in stand}
             try:
                 await self._work(team[0], said, team=team if len(team) > 1 else (), hear=hear)()
-                for name in moving:
+                for name in stand:
                     if name not in alone and self._known.changes(name) == before[name]:
                         self._control(name, "stop", said, more=False)
             finally:

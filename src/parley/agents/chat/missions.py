@@ -12,7 +12,7 @@ from parley.agents.chat import texts
 from parley.agents.chat.answering import Answering
 from parley.agents.chat.mission_board import MissionBoard
 from parley.agents.chat.situations import Situations
-from parley.agents.chat.team import GIVES_UP, Mission, Share, TeamTalk
+from parley.agents.chat.team import GIVES_UP, STOPPED, Mission, Share, TeamTalk
 from parley.agents.planner.asking import SHALL_I, counted, wish_of
 from parley.agents.planner.check import complete_calls
 from parley.agents.presence import Presence
@@ -361,7 +361,9 @@ class Missions:
         ids = {share.robot: uuid.uuid4().hex for share in mission.shares}
         found: list[ChatAction] = []
         for order, share in zip(admitted.others, mission.shares, strict=True):
-            doubt = admit(ChatAction(needs_yes=share.needs_yes), heard).order.needs_yes
+            doubt = share.needs_yes
+            if doubt != STOPPED:  # words that were not understood
+                doubt = admit(ChatAction(needs_yes=doubt), heard).order.needs_yes
             trusted = self._answering.trusted(share.robot, order)
             if trusted is None:
                 return None
