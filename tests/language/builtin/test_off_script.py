@@ -131,14 +131,14 @@ def test_what_must_not_be_done_and_is_not_understood_is_asked_about() -> None:
 @pytest.mark.parametrize(
     ("said", "told"),
     [
-        ("where are bay A and post 3?", ["bay A is ", "Post 3 is "]),
-        ("where is bay B and where is bay C", ["bay B is ", "bay C is "]),
+        ("where are bay A and post 3?", ["Bay A is ", "Post 3 is "]),
+        ("where is bay B and where is bay C", ["Bay B is ", "Bay C is "]),
         (
             "how far are bay A, post 3 and the turning circle?",
-            ["bay A is ", "Post 3 is ", "turning circle is "],
+            ["Bay A is ", "Post 3 is ", "turning circle is "],
         ),
-        ("where is bay A?", ["bay A is "]),
-        ("where are bay A and the tractor?", ["bay A is ", "do not know anything about the tractor"]),
+        ("where is bay A?", ["Bay A is "]),
+        ("where are bay A and the tractor?", ["Bay A is ", "do not know anything about the tractor"]),
     ],
 )
 def test_each_thing_is_told_that_is_asked_for_in_one(said: str, told: list[str]) -> None:

@@ -9,7 +9,7 @@ import pytest
 from parley.errors import FailureCode
 from parley.language.base import ErrorSituation, ReplyReading, Turn
 from parley.language.builtin.engine import BuiltinLanguage
-from parley.language.dialogue.settling import settled
+from parley.language.dialogue.replies import settled
 from parley.messages.chat import ActionCall
 from parley.messages.memory import MemoryEntry
 from parley.messages.status import ActionInfo

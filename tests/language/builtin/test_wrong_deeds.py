@@ -167,6 +167,7 @@ def test_half_a_list_is_not_even_offered() -> None:
         "whether there is anything lying around in bay 2",
         "whether anything is left in bay 2",
         "whether there is anything parked in bay 2",
+        "whether anything has been left lying around in bay 2",
     ],
 )
 def test_how_something_lies_there_makes_no_other_place_of_it(said: str) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Final, TypeVar
 
-from parley.language.dialogue.later import due
+from parley.language.dialogue.indirect import due
 from parley.language.dialogue.state import Asked, Deed, Dialogue, Ending, Order, Stop
 from parley.messages.chat import LeftOpen
 from parley.messages.status import ActionInfo, ActorStatus, GraphEvent, PlanProposal, PlanStep, PlanUpdate

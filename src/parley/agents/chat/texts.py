@@ -82,7 +82,6 @@ _NEVER_MIND: Final = re.compile(
 
 _QUOTED: Final = re.compile(r"“[^”]*”")
 _OFFERS_HELP: Final = re.compile(r"\b(?:do for you|help)\b")
-
 FEW_WORDS: Final = 3
 """With more words than these a message that is no mere call to stop may say more than that."""
 TALK_WORDS: Final = 6

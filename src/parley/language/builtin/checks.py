@@ -21,6 +21,7 @@ from parley.world.object_map import MapObject
 __all__ = ["Look", "check", "seen_at", "whole_names"]
 
 _SEEING = frozenset({"see", "find", "notice", "spot", "discover", "meet"})
+_ANYBODY = {"somebody", "nobody", "anybody", "someone", "anyone", "anything", "something", "nothing"}
 _SPEAKERS = frozenset({"i", "we", "you"})
 _WHERE = word_set("in on at under behind near by inside into beside below above")
 
@@ -127,14 +128,10 @@ def _subject(builder: Ways, words: Sequence[str]) -> Value | None:
         return None
     mention = link(name, len(name) - 1, builder.situation.objects, lexicon)
     if mention.kind == "one":
-        return Value(
-            mention.things[0].description, with_article(mention.things[0].description), mention.things
-        )
+        thing = mention.things[0]
+        return Value(thing.description, with_article(thing.description), mention.things)
     text = " ".join(name)
     return Value(text, with_article(text), (), known_place(name, builder.known))
-
-
-_ANYBODY = {"somebody", "nobody", "anybody", "someone", "anyone", "anything", "something", "nothing"}
 
 
 def _named_anew(builder: Ways, text: str) -> str:

@@ -14,10 +14,8 @@ from parley.language.builtin.answers import answer, look_asked_for
 from parley.language.builtin.checks import whole_names
 from parley.language.builtin.decision import Answer, Ask, Control, Decision, Deed, Do, Remember, Told
 from parley.language.builtin.deeds import Builder
-from parley.language.builtin.facts import places, rule_of, told_of
-from parley.language.builtin.heard import Heard
+from parley.language.builtin.facts import Heard, listing, places, rule_of, told_of
 from parley.language.builtin.lexicon import Lexicon, stem
-from parley.language.builtin.listings import listing
 from parley.language.builtin.planner import Planner, contradicted, orders_of
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.saying import listed, which_one

@@ -7,19 +7,17 @@ from dataclasses import dataclass, replace
 from parley.language.builtin.amounts import Amount, amount_of
 from parley.language.builtin.checks import Look, check
 from parley.language.builtin.decision import Ask, Deed
-from parley.language.builtin.doing import Doing, slot_of
+from parley.language.builtin.doing import Doing, followed, slot_of, spoken
 from parley.language.builtin.grounding import WITHIN, Value, is_somebody
 from parley.language.builtin.handling import HANDLED, is_place
 from parley.language.builtin.judging import asked
 from parley.language.builtin.lexicon import lemmas, stem
-from parley.language.builtin.owned import owned
 from parley.language.builtin.saying import with_article
 from parley.language.builtin.spans import Filler
-from parley.language.builtin.speaking import followed, spoken
 from parley.language.builtin.structure import Part
 from parley.language.builtin.things import Mention, head_of, link
 from parley.language.builtin.tokens import TITLES
-from parley.language.builtin.wishes import OwnAction, Wish
+from parley.language.builtin.wishes import OwnAction, Wish, owned
 from parley.language.lexicon import word_set
 from parley.messages.status import Kind
 from parley.umrf.kinds import parameters_of

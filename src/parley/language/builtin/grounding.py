@@ -8,9 +8,8 @@ from dataclasses import dataclass, field, replace
 from parley.language.base import Situation
 from parley.language.builtin.amounts import Amount, amount_of, direction_of
 from parley.language.builtin.decision import Ask, Deed, Note
-from parley.language.builtin.facts import Place, known_place
+from parley.language.builtin.facts import Place, known_place, told_set
 from parley.language.builtin.lexicon import Lexicon, stem, stems
-from parley.language.builtin.listings import told_set
 from parley.language.builtin.saying import as_said, which_one, with_article
 from parley.language.builtin.sets import Group, apart, group, without
 from parley.language.builtin.skills import Skills

@@ -17,12 +17,11 @@ OPEN: Final = frozenset({"what", "which", "who", "how"})
 """What asks how something is, and not whether something is so."""
 _THERE: Final = word_set("there here visible present still in on at near by under behind")
 _WITHIN: Final = frozenset({"in", "inside", "within", "on", "at"})
+_AUXILIARY: Final = word_set("is are was were has have had been")
 _BE: Final = frozenset({"is", "are"})
 _SOMEBODY: Final = frozenset({"anybody", "anyone", "somebody", "someone", "nobody"})
-_LEFT: Final = frozenset(
-    {"left", "forgot", "forgotten", "dropped", "dumped", "abandoned", "hidden", "planted"}
-)
-_LYING: Final = frozenset({"lying", "standing", "behind", "around", "about", "unattended", "somewhere"})
+_LEFT: Final = word_set("left forgot forgotten dropped dumped abandoned hidden planted")
+_LYING: Final = word_set("lying standing behind around about unattended somewhere")
 _CLEAR: Final = frozenset({"clear", "free", "empty", "unobstructed", "vacant"})
 _TAKEN: Final = frozenset({"blocked", "obstructed", "occupied", "cluttered", "full"})
 
@@ -55,7 +54,7 @@ def asked(request: str) -> Asked:
         >>> asked("whether the yard is clear")
         Asked(kind='room', thing=(), place=('the', 'yard'), holds=True, unwanted=False)
     """
-    words = tuple(_LYING.sub("", re.sub("['’]s ", " is ", request.lower())).rstrip(" .?!").split())
+    words = tuple(_HOW.sub("", re.sub("['’]s ", " is ", request.lower())).rstrip(" .?!").split())
     if words[:1] and words[0] in _ASKING:
         return Asked("state") if words[0] in OPEN else _stated(words[1:])
     if (words[:1] == ("there",) and {*words[1:2]} & _BE) or {*words[:1]} & _SOMEBODY:
@@ -68,8 +67,9 @@ def asked(request: str) -> Asked:
     return Asked("thing", _bare(thing), place, unwanted=_is_unwanted(thing))
 
 
-_LYING: Final = re.compile(
-    r" (?:lying|standing|sitting|left|parked|stored)(?: (?:around|about)\b|(?= (?:in|on|at|inside|within) ))"
+_HOW: Final = re.compile(
+    r"(?: (?:lying|standing|sitting|parked|stored)|(?<!is|as)(?<!are|ere|een|ody|one) left)"
+    r"(?: (?:around|about)\b|(?= (?:in|on|at|inside|within) ))"
 )
 """How something is somewhere says nothing of whether it is there."""
 
@@ -102,20 +102,18 @@ def _left_behind(words: tuple[str, ...]) -> Asked | None:
     at = next((n for n, word in enumerate(words) if word in _LEFT), None)
     if at is None or not at:
         return None
-    by_somebody, passive = words[0] in _SOMEBODY, words[at - 1] in ("was", "were", "been")
+    by_somebody, passive = words[0] in _SOMEBODY, words[at - 1] in _AUXILIARY
     if passive and {*words[at + 1 : at + 2]} - _LYING - _THERE:
         return None  # "a door was left open"
-    thing, rest = (words[:at], words[at + 1 :]) if passive else _placed(words[at + 1 :])
+    thing, rest = _placed(words[at + 1 :])
     if passive:
-        thing, rest = thing[: next(n for n, word in enumerate(thing) if word in _AUXILIARY)], _placed(rest)[1]
+        thing = words[: next(n for n, word in enumerate(words) if word in _AUXILIARY)]
+        rest = _placed(("", *words[at + 1 :]))[1]
     thing = tuple(word for word in thing if word not in _LYING)
     if not thing or not (by_somebody or passive) or {*thing} & {"the", "it", "they", "them"}:
         return None
     holds = words[0] != "nobody" and thing[0] not in ("no", "nothing")
     return Asked("thing", _bare(thing), rest, holds, holds)
-
-
-_AUXILIARY: Final = ("was", "were", "has", "have", "had", "been")
 
 
 def _placed(words: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:

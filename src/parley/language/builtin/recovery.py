@@ -22,8 +22,7 @@ from parley.language.builtin.tokens import tokenize
 from parley.language.dialogue.answers import differences
 from parley.language.dialogue.map_words import named_alone, rooms
 from parley.language.dialogue.questions import asks, plain, question_of
-from parley.language.dialogue.replies import chosen, names_deed, words_of
-from parley.language.dialogue.settling import Settled, parts_of, settled
+from parley.language.dialogue.replies import Settled, chosen, names_deed, parts_of, settled, words_of
 from parley.language.dialogue.standing import read_rule
 from parley.language.lexicon import word_set
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand

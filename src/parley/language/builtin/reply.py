@@ -6,18 +6,8 @@ import itertools
 import re
 from collections.abc import Iterator, Sequence
 
-from parley.language.builtin.decision import (
-    Answer,
-    Ask,
-    Control,
-    Decision,
-    Deed,
-    Do,
-    Edit,
-    Forget,
-    Remember,
-    Told,
-)  # fmt: skip
+from parley.language.builtin import decision as decisions
+from parley.language.builtin.decision import Answer, Ask, Control, Deed, Do, Edit, Forget, Remember
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.saying import listed
 from parley.language.builtin.structure import Part
@@ -35,7 +25,7 @@ _CONTROLLED = {
 }  # fmt: skip
 
 
-def to_chat(decision: Decision, lexicon: Lexicon) -> ChatAction:
+def to_chat(decision: decisions.Decision, lexicon: Lexicon) -> ChatAction:
     """The message that a decision is."""
     match decision:
         case Do(deeds, notes, told, robots):
@@ -166,11 +156,11 @@ def _type(declared: str, value: str | float | bool) -> str:
     return declared if declared in NATIVE_TYPES else native_type(value)
 
 
-def _remembered(fact: Told) -> str:
+def _remembered(fact: decisions.Told) -> str:
     return f"I will remember: {fact.text}." if fact.is_rule else f"I will remember that {fact.text}."
 
 
-def _memories(told: Sequence[Told]) -> tuple[SystemCommand, ...]:
+def _memories(told: Sequence[decisions.Told]) -> tuple[SystemCommand, ...]:
     return tuple(
         SystemCommand(
             command="add_memory", arguments={"name": fact.name, "data": fact.text, "info": fact.about}
@@ -179,7 +169,7 @@ def _memories(told: Sequence[Told]) -> tuple[SystemCommand, ...]:
     )
 
 
-def explained(parts: Sequence[Part], decision: Decision) -> list[dict[str, str]]:
+def explained(parts: Sequence[Part], decision: decisions.Decision) -> list[dict[str, str]]:
     """What was found in each clause of a message, and what was decided."""
     told = [*(pair for part in parts for pair in _of_part(part)), _of_decision(decision)]
     return [{"about": about, "text": text} for about, text in told]
@@ -203,7 +193,7 @@ def _of_wish(wish: Wish) -> str:
     return f"{verb}{no}{wish.frame}{f' with {roles}' if roles else ''} ({sure})"
 
 
-def _of_decision(decision: Decision) -> tuple[str, str]:
+def _of_decision(decision: decisions.Decision) -> tuple[str, str]:
     kind = type(decision).__name__.lower()
     match decision:
         case Do(deeds):

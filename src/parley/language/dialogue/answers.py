@@ -487,11 +487,8 @@ def _things(situation: Situation, about: str) -> tuple[MapObject, ...]:
 
 
 def _well(situation: Situation, about: str) -> str:
-    battery = situation.dialogue.battery
-    return "I am well, thank you." if battery is None or battery > _LOW else _battery(situation, about)
-
-
-_LOW: Final = 0.2
+    low = situation.dialogue.battery is not None and situation.dialogue.battery <= 0.2
+    return _battery(situation, about) if low else "I am well, thank you."
 
 
 def _battery(situation: Situation, about: str) -> str:

@@ -8,8 +8,8 @@ from typing import Final
 
 from parley.language.base import Situation
 from parley.language.builtin.decision import Ask, Decision, Do, Edit
+from parley.language.builtin.facts import Heard
 from parley.language.builtin.grounding import is_somebody
-from parley.language.builtin.heard import Heard
 from parley.language.builtin.lexicon import Lexicon, lemmas
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.tokens import Token, tokenize

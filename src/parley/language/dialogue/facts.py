@@ -10,7 +10,7 @@ from parley.gate.control import control_of
 from parley.gate.stop_words import calls_to_stop, has_stop_word
 from parley.language.base import Situation
 from parley.language.builtin.decision import Told
-from parley.language.builtin.heard import Heard
+from parley.language.builtin.facts import Heard
 from parley.language.builtin.lexicon import stem
 from parley.language.builtin.reading import Reading
 from parley.language.dialogue.map_words import named

@@ -12,8 +12,7 @@ from parley.gate.control import control_of
 from parley.language.base import Situation
 from parley.language.builtin.answers import most_asked
 from parley.language.builtin.decision import Answer, Ask, Decision, Do, Edit, Forget, Remember, Told
-from parley.language.builtin.facts import Place
-from parley.language.builtin.heard import Heard
+from parley.language.builtin.facts import Heard, Place
 from parley.language.builtin.lexicon import Lexicon, lemmas
 from parley.language.builtin.lexicon import lexicon as lexicon_of_words
 from parley.language.builtin.own import is_promised
@@ -28,7 +27,7 @@ from parley.language.dialogue.changes import Change, before_all, change_of, reor
 from parley.language.dialogue.choosing import choice_of, in_order, tells
 from parley.language.dialogue.emergency import NO_ALARM, emergency, is_emergency
 from parley.language.dialogue.following import followed
-from parley.language.dialogue.later import PROMISE, due, put_off
+from parley.language.dialogue.indirect import PROMISE, due, put_off
 from parley.language.dialogue.map_words import Named, in_room, named, named_alone, rooms
 from parley.language.dialogue.questions import plain, question_of
 from parley.language.dialogue.rearranging import rearranged
