@@ -14,7 +14,8 @@ import pytest
 from parley.messages import ros, topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.principal import person
-from parley.messages.status import StopCommand
+from parley.messages.status import ActorStatus, StopCommand
+from parley.messages.wire import decode
 from tests.agents.crew import Crew, ask, crew, decide, drive, look, proposals
 from tests.engine.rig import DummyRobot
 
@@ -203,8 +204,14 @@ async def test_an_engine_does_not_go_on_from_its_own_stop(party: Crew) -> None:
 async def test_what_is_told_a_robot_that_was_stopped_for_safety_waits_for_the_release_first(
     party: Crew,
 ) -> None:
+    beats: list[str] = []
+    await party.transport.subscribe(
+        topics.ACTOR_STATUS, lambda said: beats.append(decode(ActorStatus, said.data).state)
+    )
     party.observer.publish(topics.STOP, StopCommand(by=person("Kim")))
     await party.state("paused")
+    await party.until(lambda: "stopped" in beats)
+    await party.settled()
     party.order(look("box"))
     await party.hears("Release the stop first")
     assert not any("still standing still" in text for text in party.texts())

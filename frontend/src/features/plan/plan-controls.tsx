@@ -1,7 +1,10 @@
+import { useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { commandPlan, type PlanCommand } from '@/live/api';
 import { isEarlier, linesOf, OVER } from '@/live/lines';
+import { openQuestions } from '@/live/questions';
+import { useWorld } from '@/live/store';
 import type { PlanView, StepView } from '@/live/types';
 import { attempt } from '@/state/do';
 import { Button } from '@/ui/button';
@@ -23,6 +26,8 @@ interface Props {
 export function PlanControls({ plan, onEdit }: Props) {
   const { t } = useTranslation('plan');
   const offer = usePutBack(plan);
+  const chat = useWorld((world) => world.chat);
+  const asks = useMemo(() => openQuestions(chat).has(plan.robot), [chat, plan.robot]);
   const order = (command: PlanCommand, step = '') => attempt(() => commandPlan(plan.robot, command, step));
   if (plan.kind !== 'plan' || RESTING.includes(plan.state)) return null;
   const standing = plan.state === 'paused' || plan.state === 'held';
@@ -44,7 +49,8 @@ export function PlanControls({ plan, onEdit }: Props) {
   return (
     <div className={css.controls} data-once>
       {standing ? (
-        <Button needs="resume" tone="main" icon="play" onPress={() => void order('resume')}>
+        // While it asks something the answer is what comes first, and not going on.
+        <Button needs="resume" tone={asks ? 'plain' : 'main'} icon="play" onPress={() => void order('resume')}>
           {t('resume')}
         </Button>
       ) : (
