@@ -60,14 +60,17 @@ async def test_what_is_said_once_more_waits_once() -> None:
         await party.until(lambda: party.observer.plans["A"].waits == (door["id"], box["id"]))
 
 
-@pytest.mark.parametrize("kept", [True, False])
-async def test_more_steps_are_no_yes_to_what_was_only_offered(kept: bool) -> None:
+@pytest.mark.parametrize("wanted", [("box", "lid", "door"), ("box",), ("door",), ("box", "lid")])
+async def test_more_or_fewer_steps_are_no_yes_to_what_was_only_offered(wanted: tuple[str, ...]) -> None:
+    kept = wanted in (("box", "lid", "door"), ("box",))
     async with crew("A") as party:
-        told = ChatAction(queue=(look("box"),), targets=("A",), needs_yes="box", by=ENGINE, behalf=KIM)
+        told = ChatAction(
+            queue=(look("box"), look("lid")), targets=("A",), needs_yes="box", by=ENGINE, behalf=KIM
+        )
         party.observer.publish(topics.CHAT_ACTION, told)
         await party.until(lambda: proposals(party))
         (offered,) = proposals(party)
-        steps = (look("box"), look("door")) if kept else (look("door"),)
+        steps = tuple(map(look, wanted))
         more = told.model_copy(update={"queue": steps, "needs_yes": "", "replaces": offered["id"]})
         party.observer.publish(topics.CHAT_ACTION, more)
         if kept:
@@ -75,7 +78,7 @@ async def test_more_steps_are_no_yes_to_what_was_only_offered(kept: bool) -> Non
             await party.settled()
             assert (proposals(party)[1]["why"], party.body.did) == ("box", [])
         else:
-            await party.until(lambda: party.body.did == ["look door"])
+            await party.until(lambda: party.body.did == [f"look {thing}" for thing in wanted])
 
 
 async def test_policy_from_the_start_is_told_when_the_robot_comes() -> None:

@@ -178,7 +178,8 @@ class Ordering:
         if replaced is not None and replaced.target == plan.target:
             self._plans.approvals.drop(replaced.id)
             self._plans.send(plan, [])
-            if replaced.why and _deeds(replaced.steps) < _deeds(order.queue):  # more is no yes to a doubt
+            offered, wanted = _deeds(replaced.steps), _deeds(order.queue)
+            if replaced.why and offered & wanted and offered != wanted:  # more or less is no yes to a doubt
                 order = order.model_copy(update={"needs_yes": replaced.why})
         if calls is None:  # nothing of such an order is done, but stopping is never refused
             commands = [item for item in commands if EFFECT_OF[item.command] is Effect.PAUSE]
