@@ -37,12 +37,8 @@ def in_turn(message: str) -> str:
 
     A "round of" some places goes to them; "the gate, is it open?" asks whether the gate is open.
     """
-    message = _ROUND.sub(
-        "go to",
-        _NAMED_FIRST.sub(
-            r"\g<be> \g<what>", _AT_LAST.sub(" then", _REPORTING.sub("", _WAY.sub("", message)))
-        ),
-    )
+    for pattern, text in _PLAINER:
+        message = pattern.sub(text, message)
     if _TELLING.search(message):
         return message
     return _DONE.sub(" ", message).strip(" ,") or message
@@ -72,6 +68,9 @@ _REPORTING: Final = re.compile(
     r"as)\s+you(?:\s+(?:are|have|get)|['’](?:re|ve))\s+(?:all\s+)?(?:done|finished|through|there|arrived|ready))\W*$",
     re.IGNORECASE,
 )
+_PLAINER: Final = (
+    (_WAY, ""), (_REPORTING, ""), (_AT_LAST, " then"), (_NAMED_FIRST, r"\g<be> \g<what>"), (_ROUND, "go to"),
+)  # fmt: skip
 _TELLING: Final = re.compile(
     r"\b(?:tell|say|know|report|call|inform|notify|message|shout|beep)\b", re.IGNORECASE
 )

@@ -220,7 +220,7 @@ _WAITING: Final = re.compile(r"\b(?:wait|give (?:it|them|him|her|me)|in|after|fo
 _JOINT: Final = re.compile(
     r"\s*(?:[.;,!:]+\s*(?:(?:and|then|but|so) )*|\b(?:and then|then|and|but)\b)\s*", re.IGNORECASE
 )
-_NOT_ANEW: Final = frozenset({"not", "n't", "don't", "no", "never", "nor"})
+_DENYING: Final = frozenset({"not", "n't", "don't", "no", "never", "nor"})
 _OWN: Final = frozenset({"myself", "ourselves", "himself", "herself", "themselves"})
 _CLEARING: Final = re.compile(
     r"\b(?:moved|removed|opened|cleared|pushed|pulled|freed|fixed|closed|plugged)\b"
@@ -279,7 +279,7 @@ def settled(reply: str, things: Collection[str], *, in_the_way: bool = False) ->
         if way == "again":
             later = _seconds(rest)
             return Settled(way, min(wait_s + seconds + later, _LONGEST_S), "" if later else rest)
-        if way is None and _FREED.fullmatch(plain(tokenize(piece))) and not {*words_of(piece)} & _NOT_ANEW:
+        if way is None and _FREED.fullmatch(plain(tokenize(piece))) and not {*words_of(piece)} & _DENYING:
             return Settled("done", 0.0, rest, piece.strip())
         gives_up = way == "without" and rest and _GIVING_UP.fullmatch(plain(tokenize(piece)))
         return None if way is None else Settled("clear" if gives_up else way, 0.0, rest)
@@ -299,7 +299,7 @@ def parts_of(reply: str) -> Iterator[tuple[str, str]]:
 def _is_clear(piece: str, things: Collection[str]) -> bool:
     words = words_of(piece)
     about = {stem(word) for word in words} & {*things}
-    return _CLEAR.fullmatch(plain(tokenize(piece))) is not None and not (about or _NOT_ANEW & {*words})
+    return _CLEAR.fullmatch(plain(tokenize(piece))) is not None and not (about or _DENYING & {*words})
 
 
 def _way(piece: str, things: Collection[str]) -> Way | None:
@@ -313,12 +313,12 @@ def _way(piece: str, things: Collection[str]) -> Way | None:
     if (
         short
         and (_AGAIN.search(bare) or _LOOKING.fullmatch(piece.lower().strip(" .!")))
-        and not _NOT_ANEW & {*words}
+        and not _DENYING & {*words}
     ):
         return "again"
     if is_done(bare):
         return "without" if _OWN & {*words} and not _CLEARING.search(bare) else "done"
-    return "promise" if _PROMISE.fullmatch(bare) and not _NOT_ANEW & {*words} else None
+    return "promise" if _PROMISE.fullmatch(bare) and not _DENYING & {*words} else None
 
 
 def _seconds(text: str) -> float:
