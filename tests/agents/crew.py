@@ -160,7 +160,7 @@ def ask(question: str) -> ActionCall:
 WATCHED: tuple[topics.Topic[Any], ...] = (
     topics.GRAPH_START, topics.GRAPH_MODIFY, topics.GRAPH_PAUSE, topics.GRAPH_PAUSE_TEMOTO,
     topics.GRAPH_RESUME, topics.GRAPH_STOP, topics.STEP, topics.PLAN, topics.ERROR_HANDLING,
-    topics.ADD_TO_MEMORY, topics.REMOVE_MEMORY, topics.STOP,
+    topics.ADD_TO_MEMORY, topics.REMOVE_MEMORY, topics.STOP, topics.ACTOR_STATUS,
 )  # fmt: skip
 
 

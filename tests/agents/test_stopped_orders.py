@@ -21,14 +21,17 @@ async def pressed(party: Crew, command: str) -> None:
     await party.until(lambda: wanted in [r.state for r in party.observer.stop_reports[before:]])
 
 
-async def kept_then_done(party: Crew, *did: str) -> None:
-    """Nothing moves and nothing counts as failed until the stop is released and somebody says to go on."""
+async def kept_then_done(party: Crew, *did: str, orders: int = 1) -> None:
+    """Nothing moves and nothing counts as failed until the stop is released and somebody says to go on.
+
+    Each of the `orders` is answered with the reason for which nothing is done.
+    """
     await party.state("paused")
     await party.hears("I was stopped for safety")
     done = list(party.body.did)
     await party.settled()
     assert party.body.did == done
-    assert sum("stopped for safety" in text for text in party.texts()) == 1
+    assert sum("stopped for safety" in text for text in party.texts()) == orders
     assert not any("changed nothing" in text for text in party.texts())
     await pressed(party, "reset")
     await party.settled()
@@ -73,9 +76,10 @@ async def test_second_order_is_kept_as_well(party: Crew) -> None:
     await pressed(party, "stop")
     party.order(look("box"))
     await party.state("paused")
+    await party.until(lambda: any(s["state"] == "stopped" for s in party.wire.objects(topics.ACTOR_STATUS)))
     party.order(look("lid"))
     await party.until(lambda: len(party.steps()) == 2)
-    await kept_then_done(party, "look box", "look lid")
+    await kept_then_done(party, "look box", "look lid", orders=2)
 
 
 async def test_order_after_the_release_goes_on_without_more_ado(party: Crew) -> None:
