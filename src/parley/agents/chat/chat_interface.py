@@ -7,14 +7,14 @@ from __future__ import annotations
 
 import asyncio
 import re
-import uuid
 from collections.abc import Awaitable, Callable, Sequence
-from dataclasses import replace
 from typing import ClassVar, Final
 
 from parley.agents.base import Mailboxes, Node
-from parley.agents.chat import texts as texts
+from parley.agents.chat import texts
+from parley.agents.chat.about_rules import AboutRules
 from parley.agents.chat.answering import Answering
+from parley.agents.chat.controls import HALTING, Controls
 from parley.agents.chat.finds import Finds
 from parley.agents.chat.finishing import Finishing
 from parley.agents.chat.holds import Holds
@@ -27,23 +27,18 @@ from parley.agents.chat.recollections import Recollections
 from parley.agents.chat.situations import Situations
 from parley.agents.chat.teaching import Teaching
 from parley.agents.chat.team import TeamTalk
-from parley.agents.planner.asking import SHALL_I, Offered, wish_of
+from parley.agents.planner.asking import SHALL_I, Offered
 from parley.agents.planner.orders import no_robot
-from parley.agents.planner.steps import LATCHED
 from parley.agents.presence import ACQUAINTED_S, Presence, linked_to
 from parley.agents.questions import SeenIds, WrongAnswers
 from parley.agents.thinking import PATIENCE_S, Thinking
 from parley.clock import Clock
-from parley.errors import FailureCode
 from parley.gate.assent import assent_of, begins_with_no, gives_up
 from parley.gate.control import Control, control_of
-from parley.gate.orders import engine
-from parley.gate.rule_talk import Listener, RuleReply, RuleTalk
+from parley.gate.rule_talk import RuleTalk
 from parley.gate.stop_words import calls_to_stop, is_no, only_takes_back, opens_with_no
 from parley.gate.table import Effect, verdict
 from parley.language.base import Language
-from parley.language.dialogue.teaching import taught_in, with_names
-from parley.memory.client import recall
 from parley.memory.missions import MissionStore
 from parley.messages import topics
 from parley.messages.chat import Aside, ChatAction, ChatFeedback, ChatInput, ChatRead, SystemCommand
@@ -63,26 +58,18 @@ from parley.messages.status import (
     StopCommand,
     StopReport,
 )
-from parley.messages.team import MissionPart
-from parley.sentences import listed, sentence, together
-from parley.team.halting import halting
 from parley.team.outlook import Survey
 from parley.transport.base import Transport
 from parley.world.object_map import MapObject
 
 __all__ = ["ChatInterface"]
 
-STAND_ON: Final = "That lets nobody but those go on whom you have stopped; {robots} still stands."
-_MISSION: Final = "mission"
 _ALL_OF_YOU: Final = re.compile(
     r"\b(?:every(?:body|one)|(?:all|both|each) of you|you (?:all|two|three)|all (?:the )?robots)\b",
     re.IGNORECASE,
 )
-_AGAIN: Final = {"again", "retry"}
 _REPEATING: Final = {"again", "once", "another"}
 """In "do it again", "once more", "another time"."""
-_HALTING: Final = ("stop", "clear", "emergency_stop")
-"""Controls after which nothing that was said before may still set a robot in motion."""
 
 
 class ChatInterface(Node):
@@ -125,7 +112,7 @@ class ChatInterface(Node):
         missions: MissionStore | None = None,
     ) -> None:
         super().__init__(transport)
-        self._rules, self._soon = rules, soon
+        self._soon = soon
         self._clock = clock
         self._early: list[ChatInput] | None = []
         """What waits for the first heartbeats; None: they have come."""
@@ -136,8 +123,6 @@ class ChatInterface(Node):
             lambda *told: self._missions.on_presence(*told),
             linked=linked_to(transport),
         )
-        self._halts: dict[str, int] = {}
-        """How often each robot was told to stop."""
         self._known = Situations(transport, self._presence, objects, history_exchanges, clock, rooms)
         self._questions = self._known.questions
         self._mailboxes: Mailboxes[str] = Mailboxes(self._on_defect)
@@ -145,6 +130,7 @@ class ChatInterface(Node):
         self._seen_ids, self._repeats = SeenIds(), Repeats()
         self._wrong_answers = WrongAnswers(clock.now_s)
         self._holds = Holds(lambda command: self.publish(topics.STOP, command))
+        self._rules = AboutRules(self, rules, self._known, self._presence, self._holds, self._offered)
         self._confirmations = Confirmations()
         self._recollections = Recollections(self, clock, self._remember, self._presence.names)
         self._placing = Placing(self, self._known, self._presence)
@@ -158,18 +144,24 @@ class ChatInterface(Node):
             thinking=self._thinking,
             recollections=self._recollections,
             confirmations=self._confirmations,
-            halts=lambda target: self._halts.get(target, 0),
+            halts=lambda target: self._controls.halts().get(target, 0),
             offered=self._offered.newest,
-            has_rules=lambda: self._rules is not None and self._rules.has_rules,
+            has_rules=lambda: self._rules.has_rules,
         )
         self._say = self._answering.say
         talk = TeamTalk(language, self._known, self._presence, survey, self._offered.newest)
         self._board = MissionBoard(self, missions)
         self._missions = Missions(
             self, talk, self._answering, self._known, self._presence, self._board, language,
-            lambda robot, said: self._hear(robot, said, None), self._drop_part,
+            lambda robot, said: self._hear(robot, said, None),
+            lambda part, said: self._controls.drop_part(part, said),
         )  # fmt: skip
         self._finds = Finds(self, self._answering, self._known, self._board, language)
+        self._controls = Controls(
+            self, known=self._known, presence=self._presence, holds=self._holds, offered=self._offered,
+            thinking=self._thinking, rules=self._rules, answering=self._answering, board=self._board,
+            missions=self._missions,
+        )  # fmt: skip
 
     async def open(self) -> None:
         """See `Node.open`."""
@@ -180,7 +172,7 @@ class ChatInterface(Node):
         await self.subscribe(topics.MEMORY_EVENT, MemoryEvent, self._confirmations.on_event)
         await self.subscribe(topics.STOP, StopCommand, self._on_emergency)
         await self.subscribe(topics.ERROR_HANDLING, ErrorHandlingMessage, self._on_failure)
-        await self.subscribe(topics.RULING, PlanRuling, self._on_ruling)
+        await self.subscribe(topics.RULING, PlanRuling, self._rules.on_ruling)
         await self.subscribe_plans(self._on_plan)
         await self.subscribe(topics.GRAPH_EVENTS, GraphEvent, self._known.on_event)
         await self.subscribe(topics.PLAN_DECISION, PlanDecision, self._on_decision)
@@ -240,11 +232,15 @@ class ChatInterface(Node):
             self._say(said.targets, problem, "error", said.id)
             return
         control = control_of(said.message, self._presence.names())
-        if control not in _HALTING and verdict(said.who, Effect.SPEAK) != "allow":
+        if control not in HALTING and verdict(said.who, Effect.SPEAK) != "allow":
             self._only_stops(said)
             return
         self._keep_answer(said)
-        if self._tells_apart(said, control) or self._turns(said, control) or self._is_late(said, control):
+        if (
+            self._controls.tells_apart(said, control)
+            or self._turns(said, control)
+            or self._is_late(said, control)
+        ):
             return
         if control is None and said.type == "response" and not said.targets and self._questions.robots():
             self._questions.on_input(said)
@@ -272,13 +268,13 @@ class ChatInterface(Node):
                 self._leave(target, said)
             elif turns and (objects or only_takes_back(said.message, moves=moves)):
                 corrected.append(target)
-            elif halts and control not in _HALTING:
-                self._control(target, "stop", said, more=control is None)
+            elif halts and control not in HALTING:
+                self._controls.act(target, "stop", said, more=control is None)
             elif control is not None and not (
                 self._answers(target, question, control, said)
                 or (offered and control == "skip" and self._refuses(target, said))
             ):
-                self._control_or_ask(target, control, said)
+                self._controls.act_or_ask(target, control, said)
             elif not self._presence.is_there(target):
                 text = texts.not_there(target)
                 self._say((target,), text, "error", said.id)
@@ -296,7 +292,7 @@ class ChatInterface(Node):
         hearers = [name for target in said.targets if (name := self._presence.resolve(target))] or robots[:1]
         if wish.turns == "asked":
             for name in filter(self._is_under_way, robots):
-                self._control(name, "stop", said, more=False)
+                self._controls.act(name, "stop", said, more=False)
             robots = []
         robots = [name for name in robots if self._is_under_way(name)]
         named = [part.robot for part in wish.parts if part.robot]
@@ -307,13 +303,13 @@ class ChatInterface(Node):
 
     def _is_late(self, said: ChatInput, control: Control | None) -> bool:
         """Whether a message answers a question that is settled, and is no stop; that is told."""
-        if late := control not in _HALTING and self._questions.is_late(said):
+        if late := control not in HALTING and self._questions.is_late(said):
             self._say(said.targets, texts.settled(said.message), "response", said.id)
         return late
 
     def _is_repeated(self, said: ChatInput) -> bool:
         """Whether a program says the same on and on, which is told once; to stop counts every time."""
-        if calls_to_stop(said.message) or control_of(said.message, self._presence.names()) in _HALTING:
+        if calls_to_stop(said.message) or control_of(said.message, self._presence.names()) in HALTING:
             return False
         count = self._repeats.count(said, self._clock.wall_s())
         if count == 1:
@@ -359,7 +355,7 @@ class ChatInterface(Node):
         own = self._offered.decided(target, said, names)
         asked_for_others = self._offered.newest(target) is None and self._offered.is_asked(target)
         if own is not None:
-            self._hand_on(target, own, said)
+            self._controls.hand_on(target, own, said)
         elif not asked_for_others:
             return False
         mates = [
@@ -375,8 +371,7 @@ class ChatInterface(Node):
     ) -> bool:
         """Have a message understood; whether that is seen to for all of `team`."""
         about = said.reply_to or (question.id if question else "")
-        of_rules = self._rules is not None and self._rules.asked(about)
-        known = of_rules or self._recollections.asked(about) or self._placing.asked(about)
+        known = self._rules.asked(about) or self._recollections.asked(about) or self._placing.asked(about)
         ours = about if said.type == "response" and known else ""
         if question is None or ours:
             self._mailboxes.post(target, self._work(target, said, ours, team))
@@ -391,7 +386,7 @@ class ChatInterface(Node):
             self._say(said.targets, texts.ONLY_LOOKS, "error", said.id)
             return
         for target in self._meant(said, None, calls=True, refuses=False):
-            self._control(target, "stop", said)
+            self._controls.act(target, "stop", said)
 
     def _meant(self, said: ChatInput, control: Control | None, *, calls: bool, refuses: bool) -> list[str]:
         """Whom a message is for; a call to stop also for those under way whom its words call."""
@@ -399,7 +394,7 @@ class ChatInterface(Node):
         if control is None and refuses and not calls:  # "A, never mind"
             return self._presence.named_in(said.message) or targets
         if control is not None:
-            own = self._own_of_all(said) if control == "start" else ()
+            own = self._controls.own_of_all(said) if control == "start" else ()
             if control == "clear" and _ALL_OF_YOU.search(said.message):  # "cancel all" is about steps
                 called = self._presence.called_in(said.message)
                 own = [name for name in called if self._known.state(name) != "idle"]
@@ -413,15 +408,6 @@ class ChatInterface(Node):
     def _is_under_way(self, name: str) -> bool:
         """Whether a robot is at something, or moves by itself."""
         return self._known.is_under_way(name) or self._known.moves(name, self._presence.get(name))
-
-    def _hand_on(self, target: str, decision: PlanDecision, said: ChatInput) -> None:
-        """Hand a yes or no on, if the question about the plan is what the robot said last; else ask again."""
-        offered = self._offered.newest(target)
-        if decision.decision == "reject" or offered is None or self._offered.is_asked(target):
-            self.publish(topics.PLAN_DECISION, decision)
-        else:
-            text = together(wish_of(offered.lines, offered.why), SHALL_I)
-            self._say((target,), text, "response", said.id)
 
     def _on_said(self, feedback: ChatFeedback) -> None:
         self._known.on_feedback(feedback)
@@ -442,58 +428,6 @@ class ChatInterface(Node):
         again = state == "idle" and bool(_REPEATING & {*said.message.lower().strip(" .!").split()})
         return control == "start" and state != "paused" and (question is not None or again)
 
-    def _call_off(self, target: str, control: Control, said: ChatInput) -> None:
-        """Drop the others' parts, too, where it is the mission that is to be dropped."""
-        for part in (
-            self._board.beside(target) if control == "clear" and _MISSION in said.message.lower() else ()
-        ):
-            self._drop_part(part, said)
-
-    def _drop_part(self, part: MissionPart, said: ChatInput) -> None:
-        """Drop what a robot still does of a mission, and nothing else of it."""
-        if whose := self._known.of_others(part.robot, said):
-            self._ask_to_drop(part.robot, whose, said, part.order)
-        else:
-            self._board.drop(part, said)
-
-    def _own_of_all(self, said: ChatInput) -> list[str]:
-        """Those of all that are called who stand because whoever calls them told them to."""
-        called = self._presence.called_in(said.message)
-        return [name for name in called if self._known.stands_for(name, said.who)]
-
-    def _called_but_still(self, target: str, said: ChatInput) -> list[str]:
-        """Who stands on though all were called: with all one only lets go on whom one has stopped oneself."""
-        others = {*self._presence.called_in(said.message)} - {target, *said.targets, *self._own_of_all(said)}
-        return sorted(name for name in others if self._known.state(name) == "paused")
-
-    def _tells_apart(self, said: ChatInput, control: Control | None) -> bool:
-        """Whether some robots were told to stand or to go on, and others not; that is done then."""
-        hearers = [name for target in said.targets if (name := self._presence.resolve(target))]
-        told = halting(said.message, self._presence.ever(), hearers)
-        if told is None or (control == "start" and len(told.goes) == len(self._presence.ever())):
-            return False
-        named = {*self._presence.named_in(said.message)}
-        stands = [name for name in told.goes if self._known.state(name) == "paused"]
-        lets_go = [name for name in stands if name in named or name in self._own_of_all(said)]
-        drives = [name for name in told.goes if self._known.state(name) == "running"]
-        for name in told.stops:  # also who is at nothing: what it is just being told is not done either
-            self._control(name, "stop", said)
-        for name in lets_go:
-            self._control(name, "start", said)
-        for name in drives:
-            self._say((name,), texts.CONTROL_REPLIES["start"], "response", said.id)
-        if not (told.stops or lets_go or drives):
-            several = stands or told.goes
-            idle = "{robots} is not under way." if len(several) == 1 else "{robots} are not under way."
-            text = sentence(STAND_ON if stands else idle, robots=", ".join(several))
-            self._say(hearers[:1], text, "response", said.id)
-        return True
-
-    def _offers_past(self, target: str, message: str) -> bool:
-        """Whether "go on" means to leave what was seen as it is: a robot asks just that."""
-        asked = self._questions.newest(target)
-        return asked is not None and "go on" in asked.choices and not _AGAIN & {*message.lower().split()}
-
     def _says_no(self, message: str, control: Control | None) -> bool:
         """Whether somebody says no in any words that are not a control word."""
         refuses = control is None and assent_of(message, self._presence.names()) is False
@@ -504,7 +438,7 @@ class ChatInterface(Node):
 
         A mere no while it moves and asks for words may mean the drive; "never mind" does not.
         """
-        means_more = control in _HALTING and not (control == "clear" and self._known.state(target) == "idle")
+        means_more = control in HALTING and not (control == "clear" and self._known.state(target) == "idle")
         log = self._known.log(target)
         lacks = log.lacks and texts.is_never_mind(said.message)
         return (
@@ -533,7 +467,7 @@ class ChatInterface(Node):
         team: Sequence[str] = (),
         hear: Callable[[str], None] | None = None,
     ) -> Callable[[], Awaitable[None]]:
-        halts, left = dict(self._halts), [*team[1:]]
+        halts, left = self._controls.halts(), [*team[1:]]
 
         def others() -> None:
             while left:
@@ -544,7 +478,7 @@ class ChatInterface(Node):
             """Whether it was an order to all together."""
             if self._soon is not None:
                 await self._soon(target)
-            if await self._about_rules(target, said, ours):
+            if await self._rules.handles(target, said, ours):
                 return False
             if await self._placing.handles(target, said, ours, team):
                 return True
@@ -559,7 +493,7 @@ class ChatInterface(Node):
                 if order != "" and not together_done:
                     others()  # they need not wait until this one has answered
                     await self._answering.answer(target, heard, halts)
-            self._ask_about_rules_again(target, said)
+            self._rules.ask_again(target, said)
             return together_done
 
         async def work() -> None:
@@ -588,51 +522,11 @@ class ChatInterface(Node):
                 await self._work(team[0], said, team=team if len(team) > 1 else (), hear=hear)()
                 for name in stand:
                     if name not in alone and self._known.changes(name) == before[name]:
-                        self._control(name, "stop", said, more=False)
+                        self._controls.act(name, "stop", said, more=False)
             finally:
                 self._holds.end(held)
 
         return correct
-
-    async def _about_rules(self, target: str, said: ChatInput, ours: str) -> bool:
-        """Whether a message was about rules; what becomes one is decided by code and a person's yes."""
-        status, offered = self._presence.get(target), self._offered.newest(target)
-        waits = "; ".join(offered.lines) if offered is not None else ""
-        to = Listener(
-            target,
-            self._presence.names(),
-            self._known.objects(target),
-            status.catalogue if status else (),
-            busy=self._known.state(target) != "idle",
-            doing=self._known.doing(target) or waits,
-        )
-        if self._rules is not None and self._rules.concerns(said.message, to):  # names of their own are names
-            known = taught_in(await recall(self.transport, said.message, scope=target))
-            to = replace(to, places=with_names(self._known.objects(target), known))
-        reply = self._rules and await self._rules.reply(said.message, said.who, to, answers=ours)
-        if not reply or self._rules is None:
-            return False
-        if (left := self._rules.left(ours)) is not None:  # first, so that a yes means what was told now
-            self._reply_about_rules(target, said, left)
-        self._reply_about_rules(target, said, reply, said.id)
-        self._known.note(target, said.message, reply.text)
-        return True
-
-    def _reply_about_rules(self, target: str, said: ChatInput, reply: RuleReply, reply_to: str = "") -> None:
-        feedback = ChatFeedback(
-            message=self.spoken(reply.text), targets=(target,), type="request" if reply.id else "response",
-            choices=tuple(map(self.spoken, reply.choices)), id=reply.id, closes=reply.closes,
-            reply_to=reply_to, rules=reply.rules,
-        )  # fmt: skip
-        if reply.stands:
-            self._holds.begin_for(reply.id, said, reply.stands)
-        self._holds.end(reply.closes)
-        self.publish(topics.CHAT_FEEDBACK, feedback)
-
-    def _ask_about_rules_again(self, target: str, said: ChatInput) -> None:
-        """Whatever else is said, the robot stands until the answer, and says so."""
-        if self._rules is not None and (reply := self._rules.again(target)) is not None:
-            self._reply_about_rules(target, said, reply)
 
     def _keep_pictures(self, target: str, said: ChatInput, question: str) -> Callable[[], Awaitable[None]]:
         """Of an answer with pictures: whoever asked gets the words."""
@@ -685,12 +579,7 @@ class ChatInterface(Node):
 
     def _on_failure(self, failure: ErrorHandlingMessage) -> None:
         self._known.on_failure(failure)
-        if self._rules is not None and failure.code is FailureCode.FORBIDDEN:
-            self._rules.refused(failure.target, [str(failure.details.get("rule", ""))])
-
-    def _on_ruling(self, ruling: PlanRuling) -> None:
-        if self._rules is not None and (ruling.rules or ruling.outcome != "refused"):
-            self._rules.refused(ruling.target, ruling.rules)
+        self._rules.on_failure(failure)
 
     def _on_decision(self, decision: PlanDecision) -> None:
         self._offered.on_decision(decision)
@@ -700,98 +589,10 @@ class ChatInterface(Node):
         """The stop button: what was asked for before it is dropped, as if it had been said."""
         if command.command == "stop":
             for target in command.targets or self._presence.ever():
-                self._halt(target)
+                self._controls.halt(target)
         elif command.command == "reset":
             self._holds.on_reset()
             self._presence.on_reset(command)
-
-    def _halt(self, target: str) -> None:
-        self._halts[target] = self._halts.get(target, 0) + 1
-        self._thinking.give_up(target)
-
-    # -- control ---------------------------------------------------------------------------------------
-
-    def _control(self, target: str, control: Control, said: ChatInput, *, more: bool | None = None) -> None:
-        """Act at once, ahead of anything that is still being understood.
-
-        `more`: whether nobody reads what else is in the message; None: there is hardly more in it.
-        """
-        self._call_off(target, control, said)
-        if control in _HALTING:
-            self._halt(target)
-            self._known.on_stop(target, said)
-            if control == "stop" and self._known.moves(target, self._presence.get(target)):
-                self._holds.keep(target, said)
-        state, status = self._known.state(target), self._presence.get(target)
-        # A plan that waits for approval has no step yet: only approving or dropping it does anything.
-        nothing = state == "idle" or (state == "awaiting_approval" and control in ("stop", "skip"))
-        if state == "idle" and status is not None and status.state == "paused":
-            nothing = False  # its engine holds a graph that is no plan of ours
-        reply = texts.nothing_to_do(control, said.message) if nothing else ""
-        offered = self._offered.newest(target)
-        if control == "start" and status is not None and status.state == "stopped":
-            reply = LATCHED
-        elif control == "start" and state in ("awaiting_approval", "held") and offered is not None:
-            yes = PlanDecision(
-                id=offered.id, target=target, decision="approve", digest=offered.digest, by=said.who
-            )
-            self._hand_on(target, yes, said)
-            return
-        elif control == "emergency_stop":
-            stop = StopCommand(targets=(target,), id=uuid.uuid4().hex, by=said.who, words=said.message)
-            self.publish(topics.STOP, stop)
-        elif (
-            not reply or control in _HALTING
-        ):  # stopping is sent in any case: the plan may be newer than known
-            past = control == "start" and state == "held" and self._offers_past(target, said.message)
-            command = SystemCommand(command="skip" if past else control)
-            order = ChatAction(
-                system_cmd=(command,), targets=(target,), by=said.who, words=said.message, reply_to=said.id
-            )
-            self.publish(topics.CHAT_ACTION, order)
-        reply = reply or texts.CONTROL_REPLIES[control]
-        if control == "start" and state == "paused" and offered is not None:
-            reply = together(sentence(reply), texts.STILL_ASKED)
-        if control == "start" and (still := self._called_but_still(target, said)):
-            alone = sentence(STAND_ON, robots=", ".join(still))
-            reply = together(sentence(reply), alone)
-        hardly = more is None and control == "stop"
-        longest = texts.FEW_WORDS if more else texts.TALK_WORDS if hardly else texts.MAX_CHARS
-        if len(said.message.split()) > longest:  # there may be an order in it
-            reply = together(sentence(reply), texts.REST_LEFT)
-        self._known.note(target, said.message, reply)
-        asked = self._questions.newest(target) if state == "held" else None
-        if asked is not None and self._rules is not None and self._rules.asked(asked.id):
-            asked = None
-        self.publish(
-            topics.CHAT_FEEDBACK,
-            ChatFeedback(
-                message=self.spoken(reply),
-                targets=(target,),
-                closes=asked.id if asked else "",
-                reply_to=said.id,
-            ),
-        )
-        self._ask_about_rules_again(target, said)
-
-    def _control_or_ask(self, target: str, control: Control, said: ChatInput) -> None:
-        """Act at once, unless it would drop what somebody else told the robot."""
-        if control == "clear" and (whose := self._known.of_others(target, said)):
-            self._call_off(target, control, said)
-            self._ask_to_drop(target, whose, said)
-        else:
-            self._control(target, control, said)
-
-    def _ask_to_drop(self, target: str, whose: Sequence[str], said: ChatInput, order: str = "") -> None:
-        """Of what somebody else told a robot: it stands at once, and gives it up after a yes."""
-        self._missions.keep_part(target)
-        self._control(target, "stop", said)
-        drop = SystemCommand(command="clear", arguments={"order": order} if order else {})
-        asked = ChatAction(
-            system_cmd=(drop,), targets=(target,), by=engine(self.name), behalf=said.who, words=said.message,
-            needs_yes=sentence("{people} told me to do this", people=listed(whose)),
-        )  # fmt: skip
-        self.spawn(self._answering.hand_over(asked, target, said), name=f"dropping for {target}")
 
     def _undoes(self, target: str, said: ChatInput) -> bool:
         """Whether a message is a tap on what undoes a memory; it is done then."""
