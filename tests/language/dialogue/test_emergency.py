@@ -117,3 +117,38 @@ def test_what_another_robot_is_to_be_helped_with_is_done() -> None:
 def test_a_cry_for_help_alarms_among_robots_too(message: str) -> None:
     asked = ENGINE.decide(situation(message, robots=TEAM))
     assert isinstance(asked, Ask) and asked.alarms, message
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        "I can't breathe, where are you",
+        "Ruth is on the floor, come to the desk",
+        "grandma is not responding",
+        "My chest hurts",
+        "Kim isn't breathing, what shall I do?",
+    ],
+)
+def test_what_no_healthy_person_does_alarms_whatever_else_is_said(message: str) -> None:
+    asked = ENGINE.decide(situation(message))
+    assert isinstance(asked, Ask) and asked.alarms
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        "check whether Ruth is on the floor",
+        "the red box is on the floor",
+        "Water is on the floor",
+        "she doesn't respond to my letters",
+        "the pump is not responding",
+    ],
+)
+def test_what_lies_there_or_is_only_asked_about_alarms_nobody(message: str) -> None:
+    assert not getattr(ENGINE.decide(situation(message)), "alarms", False)
+
+
+@pytest.mark.parametrize("message", ["can you help me?", "Hi, could you please help me with something"])
+def test_who_politely_asks_for_help_is_asked_for_what(message: str) -> None:
+    asked = ENGINE.decide(situation(message))
+    assert isinstance(asked, Ask) and not asked.alarms and "If a person is in danger" in asked.question

@@ -50,21 +50,26 @@ def emergency(heard: Heard) -> Decision | None:
     reader, again = heard.reader, heard.again
     if (helps := _helps_robot(situation, lexicon, again)) is not None:
         return helps
+    if _ASKS_FOR_HELP.fullmatch(situation.message.strip()) and not is_emergency(situation):
+        return Ask("Say what to do, or where to go. If a person is in danger, please say so.")
     text = _LOST.sub(r"\g<what>", situation.message)
     acts = reader(text).acts
+    suffers = _suffers(text, situation)
     pieces = [match.span() for match in _PIECE.finditer(text)] if len(tokens) <= _LONGEST else []
     names = " ".join([*situation.robots, *(item.description for item in situation.objects)]).lower().split()
     ends = [text[slice(*pieces[at])] for at in (0, -1)] if len(pieces) > 1 else []
     if len(ends) > 1 and _danger(text[: pieces[-1][0]], lexicon):
         del ends[1]  # "look for smoke, gas" is a list
     ends = [one for one in ends if {*_danger(one, lexicon)}.isdisjoint(names)]  # a "fire door" is none
-    if "question" in acts or not ("alarm" in acts or any(_calls(one, lexicon, reader) for one in ends)):
-        return None
-    if _is_calm(situation, tokens, lexicon) or _does_something(tokens, lexicon):
+    alarms = "alarm" in acts or any(_calls(one, lexicon, reader) for one in ends)
+    calm = "question" in acts or not alarms or _is_calm(situation, tokens, lexicon)
+    if not suffers and (calm or _does_something(tokens, lexicon)):
         return None
     order, told = _beside(text, pieces, lexicon, reader, again)
-    calm = _NUISANCE.sub(" ", text)
-    if not order and calm != text and not (_danger(calm, lexicon) or "alarm" in reader(calm).acts):
+    if suffers:
+        return _alarm(situation, tokens, lexicon, order)
+    plain = _NUISANCE.sub(" ", text)
+    if not order and plain != text and not (_danger(plain, lexicon) or "alarm" in reader(plain).acts):
         return None
     serious = [one for one in told if _NUISANCE.search(one) is None]
     danger = any(_danger(one, lexicon) for one in told)
@@ -73,6 +78,39 @@ def emergency(heard: Heard) -> Decision | None:
     if not order and not _concerns_people(text, lexicon):
         return _to_be_seen(situation, tokens, lexicon, again) or _alarm(situation, tokens, lexicon, order)
     return _alarm(situation, tokens, lexicon, order)
+
+
+def _suffers(text: str, situation: Situation) -> bool:
+    """Whether it says of a person what no healthy one does, whatever else is in it: "he is not breathing"."""
+    robots = {name.lower() for name in situation.robots}
+    for found in _SUFFERING.finditer(text):
+        who = found["who"] or found["down"] or "I"
+        low = who.lower()
+        named = who.istitle() and low not in _NOBODY
+        person = named or low in _PEOPLE or is_somebody(low)
+        if person and low not in robots and _IN_CASE.search(text[: found.start()]) is None:
+            return True
+    return False
+
+
+_PEOPLE: Final = word_set("i he she they we somebody someone")
+_NOBODY: Final = word_set(
+    "it that this these those what which who there something everything nothing all one the water milk "
+    "coffee tea oil paper juice soup food glass dirt lunch dinner wine beer"
+)
+"""What a sentence may begin with, in a capital letter, and is no name."""
+_IN_CASE: Final = re.compile(r"\b(?:if|whether|when|unless|until|in case|once)\b[^.!;?]*$", re.IGNORECASE)
+_NOT: Final = (
+    r" ?(?:(?: ca| could| do| does| is| are| was| wo)n['’]?t|(?: can| could| does| do| is| are|['’]s|['’]m|"
+    r" am| will) not| cannot|(?: has|['’]s)? stopped| hardly| barely) "
+)
+_SUFFERING: Final = re.compile(
+    rf"\b(?P<who>[\w-]+){_NOT}(?:breath(?:e|es|ing)|respond(?:s|ing)?|react(?:s|ing)?|wak(?:e|ing)(?: up)?)\b"
+    r"(?=\W*$|\s*[,.;!?]|\s+(?:and|any ?more|at all|properly|well|to (?:me|us|anything))\b)|"
+    r"\b(?:my|his|her|their) chest (?:hurts|aches|is hurting)|\bpains? in (?:my|his|her|their|the) chest\b|"
+    r"\b(?P<down>[\w-]+)(?: is|[’']s|[’']m| am)(?: lying| down)? on the (?:floor|ground)\b(?! floor)",
+    re.IGNORECASE,
+)
 
 
 def _is_calm(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon) -> bool:
@@ -152,6 +190,12 @@ def _helps_robot(situation: Situation, lexicon: Lexicon, again: Callable[[str], 
         f"What is to be done to help {name}? Say what to do, or where to go. "
         "If a person is in danger, please say so."
     )
+
+
+_ASKS_FOR_HELP: Final = re.compile(
+    r"(?:(?:hello|hi|hey|sorry|please|excuse me)\W+)*(?:can|could|would|will) you (?:please )?help"
+    r"(?: me| us)?(?: out)?(?: (?:please|with (?:it|this|that|something)))*\W*", re.IGNORECASE
+)  # fmt: skip
 
 
 def _help_pattern(robots: tuple[str, ...]) -> re.Pattern[str]:
