@@ -95,7 +95,10 @@ def test_where_somebody_is_may_be_said_short() -> None:
 @pytest.mark.parametrize(
     ("said", "answer"),
     [("go faster", "rule"), ("undo that", "take back"), ("evening. everything quiet?", "not looked"),
-     ("what did I ask you to do?", "not done anything"), ("did you see anyone?", "not looked")],
+     ("what did I ask you to do?", "not done anything"), ("did you see anyone?", "not looked"),
+     ("morning. anything happening?", "nothing to do"), ("how's it going?", "nothing to do"),
+     ("what's on your map?", "I can go to"), ("show me your map", "I can go to"),
+     ("hi there, who am I talking to?", "a robot"), ("can you pick things up?", "I can do this")],
 )  # fmt: skip
 def test_small_talk_about_the_robot_is_answered(said: str, answer: str) -> None:
     made = decided(said)
@@ -202,6 +205,31 @@ def test_the_same_of_another_thing_is_asked_of_that_thing() -> None:
 
 def decided_shipped(said: str, **more: object) -> Decision:
     return ENGINE.decide(situation(said, objects=PLACES, catalogue=SHIPPED, **more))
+
+
+@pytest.mark.parametrize(
+    "said", ["open the skylight", "turn off the radio", "mop the floor", "cook some rice"]
+)
+def test_what_no_action_does_is_said_before_it_is_asked_what_is_meant(said: str) -> None:
+    made = decided_shipped(said)
+    assert isinstance(made, Ask) and made.question.startswith("I have no action to")
+
+
+@pytest.mark.parametrize(
+    ("said", "done"),
+    [
+        ("inspect bay A, then bay B, then bay C", "LOOK LOOK LOOK"),
+        ("photograph bay A, then bay B", "PHOTO PHOTO"),
+        ("check bay A, then back to bay B", "LOOK"),
+        ("take two pictures of bay A", "PHOTO PHOTO"),
+        ("could you do me a favour and check bay A", "LOOK"),
+        ("take a look around", "LOOK"),
+    ],
+)
+def test_all_that_is_wanted_is_done_at_each_and_as_often_as_was_said(said: str, done: str) -> None:
+    made = ENGINE.decide(situation(said, objects=PLACES, catalogue=SHIPPED))
+    assert isinstance(made, Do)
+    assert " ".join(deed.frame for deed in made.deeds if deed.frame in ("LOOK", "PHOTO")) == done
 
 
 def test_an_order_to_another_robot_takes_nothing_of_what_this_one_offered() -> None:

@@ -76,7 +76,12 @@ class Builder(Doing):
                 self.last_thing = values[role] if told else self.last_thing
             self.last_thing = values.get("T", self.last_thing)
             made = self._planned(wish, values)
-        return made if isinstance(made, Ask) else made * times
+        return made if isinstance(made, Ask) else self._repeated(wish, made, times)
+
+    def _repeated(self, wish: Wish, made: list[Deed], times: int) -> list[Deed]:
+        """So many times; another picture of one thing is taken where it stands."""
+        again = made[-1:] if wish.frame == "PHOTO" and self.whole is None else made
+        return [*made, *again * (times - 1)]
 
     @staticmethod
     def _is_met(wish: Wish) -> bool:
@@ -164,7 +169,8 @@ class Builder(Doing):
         if twice is not None:
             both = " and ".join(f"“{filler.text}”" for filler in wish.all(twice.role))
             return Ask(f"I do not understand how {both} go together here. Can you say it otherwise?")
-        return None
+        alone = wish.frame in _BY_ITSELF and wish.frame not in self.skills
+        return self._cannot(wish) if alone else None  # whatever it is to be done to
 
     def _values(self, wish: Wish) -> dict[str, Value] | Ask:
         """What the roles of a wish hold."""
@@ -297,13 +303,15 @@ class Builder(Doing):
     def times(self, wish: Wish) -> int | Ask:
         """How often a wish is to be done."""
         often = wish.all("O")
-        if not often:
+        shots = wish.verb.split()[1:-1] if wish.frame == "PHOTO" else []  # "take two pictures"
+        text = often[0].text if often else next((word for word in shots if amount_of([word]) is not None), "")
+        if not text:
             return 1
-        words = [word for word in often[0].words if word not in ("times", "rounds", "time", "for")]
+        words = [word for word in text.split() if word not in ("times", "rounds", "time", "for")]
         amount = amount_of(words) if words else None
         count = int(amount.value) if amount is not None and amount.kind == "number" else 0
         if len(often) > 1 or not 1 <= count <= _MOST_TIMES:
-            return Ask(f"I cannot do that “{often[0].text}” by myself. Shall I do it once, now?")
+            return Ask(f"I cannot do that “{text}” by myself. Shall I do it once, now?")
         return count
 
     def _beyond(self, filler: Filler) -> str:
@@ -518,6 +526,8 @@ _ONCE = frozenset({"SAY", "ASK", "WAIT", "TURN", "MOVE", "CONNECT", "DISC", "MIX
 """What is not done to one thing after the other."""
 
 
+_BY_ITSELF = word_set("OPEN CLOSE ON OFF CONNECT DISC CLEAN POUR CUT MIX COOK MAKE")
+"""Frames that are done by an action of their own or not at all."""
 _WAYS = {"FIND": Builder.look_for, "TAKE": Builder.take, "BRING": Builder.bring, "GIVE": Builder.bring}
 """How frames are done without an action of their own."""
 _BY_HAND = {"TAKE": Builder.take, "GIVE": Builder.bring, "PUT": Builder.bring}

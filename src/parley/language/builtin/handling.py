@@ -93,7 +93,7 @@ class Handling(Ways):
         elif thing.place is not None or thing.things:
             way = self.nearing(thing)
         elif not self.at and self.sought != (self.at, thing.argument):
-            return Ask(f"I do not know where {thing.said} is. Where shall I look?", where=thing.said)
+            return Ask(f"I do not know where to find {thing.said}. Where shall I look?", where=thing.said)
         if isinstance(way, Ask) or self.sought == (self.at, thing.argument):
             return way
         deed = Deed("FIND", find, {next(iter(find.roles.values())): thing.argument}, {"T": thing.said})

@@ -49,7 +49,8 @@ def read(parse: Parse, lexicon: Lexicon) -> Reading:
         for part in _by_way(parse, span, lexicon)
     ]
     spans = [part for span in spans for part in _one_by_one(parse, span, lexicon)]
-    spans = [_going_on(parse, span, spans[:at]) for at, span in enumerate(spans)]
+    for at, span in enumerate(spans):
+        spans[at] = _going_on(parse, span, spans[:at])
     fillers = [_filler(parse, span, lexicon) for span in spans]
     for number, verb in enumerate(parse.verbs):
         mine = [filler for filler, span in zip(fillers, spans, strict=True) if span.owner == number]
@@ -233,7 +234,8 @@ def _going_on(parse: Parse, span: Span, before: Sequence[Span]) -> Span:
     if last is None or last.owner is None:
         return span
     on_the_spot = parse.verbs[last.owner].frame in _REPEATED - {"GO", "BRING", "TAKE"}
-    stray = span.role == "G" and span.owner == last.owner and last.role == "T" and on_the_spot
+    ours = span.owner == last.owner or (span.owner is None and parse.tokens[span.start].low not in _BACK)
+    stray = span.role == "G" and ours and last.role == "T" and on_the_spot
     if not stray and (span.role != "T" or span.owner is not None):
         return span
     between = [token.low for token in parse.tokens[last.end : span.start]]
@@ -241,6 +243,7 @@ def _going_on(parse: Parse, span: Span, before: Sequence[Span]) -> Span:
     return replace(span, role=last.role, owner=last.owner) if on and last.role in "TG" else span
 
 
+_BACK = frozenset({"to", "back", "home", "into", "over"})
 _ON = frozenset({"then", "next", "afterwards", "finally", "lastly"})
 
 
@@ -505,7 +508,7 @@ def _joined(wishes: list[Wish]) -> list[Wish]:
 
 
 _MANY = ("T", "G", "L")
-_REPEATED = word_set("GO LOOK FIND ON OFF OPEN CLOSE COUNT CLEAN TAKE BRING DO")
+_REPEATED = word_set("GO LOOK FIND ON OFF OPEN CLOSE COUNT CLEAN TAKE BRING DO PHOTO")
 
 
 def _spread(wish: Wish) -> list[Wish]:

@@ -524,7 +524,9 @@ def _name(situation: Situation, about: str) -> str:
 def _time(situation: Situation, about: str) -> str:
     now = situation.dialogue.now_unix_ms
     return (
-        f"By my clock it is {datetime.fromtimestamp(now / 1000):%H:%M}." if now else "I cannot tell the time."
+        f"By my clock it is {datetime.fromtimestamp(now / 1000):%H:%M, %Y-%m-%d}."
+        if now
+        else "I cannot tell the time."
     )
 
 
@@ -589,6 +591,7 @@ _TOPICS: Final[dict[str, Callable[[Situation, str], str]]] = {
     "speed": lambda situation, about: _SPEED,
     "will_tell": lambda situation, about: f"I tell you as soon as I am done. {_doing(situation, about)}",
     "undo": lambda situation, about: f"I cannot take back what is done. {_did(situation, about)}",
+    "speaks": lambda situation, about: "I understand plain English.",
     "joke": lambda situation, about: "I am no good at that, sorry: I drive, look and remember.",
 }  # fmt: skip
 """What answers which topic."""

@@ -49,7 +49,8 @@ _SOCIAL: Final = re.compile(
     rf"thank(?:s| you)(?! (?:and |but )?(?:then|now|next)\b)(?: \w+){{0,5}}(?: {_ALL})?|"
     rf"{_ALL}(?: thanks| thank you)?|"
     r"(?:that (?:was|is)|that's) (?:nice|great|good|perfect|lovely|fine|quick|fast)|"
-    r"cheers|well done|good (?:job|boy|robot|work)|nice|great|perfect|cool|wow|haha+.*|lol|sorry|"
+    r"cheers|well done|good (?:job|boy|robot|work)|nice|great|perfect|cool|wow|haha+.*|lol|"
+    r"(?:i(?: am|'m) )?sorry|(?:sorry )?my (?:mistake|bad|fault)|"
     r"you(?: are|'re| r) .+)"
 )
 LEAVES: Final = re.compile(r"\b(?:good ?night|(?:good)?bye|see you)\b")
@@ -320,7 +321,7 @@ def afterwards(made: Decision, heard: Heard) -> Decision:
     if isinstance(made, Ask | Answer) and not (offers or ordered) and _SOCIAL.fullmatch(bare):
         if LEAVES.match(bare):
             return Answer("Goodbye.")
-        greets = bare.startswith(("hello", "hi", "hey", "good ", "you", "sorry"))
+        greets = re.match(r"hello|hi\b|hey|good (?:morning|day|evening|afternoon)|you\b|sorry", bare)
         return Answer("Hello. What can I do for you?" if greets else "You are welcome.")
     if offers or not isinstance(made, Ask | Answer | Remember):
         return made

@@ -76,6 +76,8 @@ def question_of(bare: str) -> Question | None:
     Args:
         bare: The words, as `plain` gives them.
     """
+    bare = re.sub(r"\b(what|where|who|how|when|that|it|all|everything)'s\b", r"\1 is", bare)
+    bare = re.sub(r"(?<=\w)'re\b", " are", bare)
     for shape in shapes():
         for pattern in shape.patterns:
             if (found := pattern.fullmatch(bare)) is not None:
