@@ -81,6 +81,20 @@ async def test_more_or_fewer_steps_are_no_yes_to_what_was_only_offered(wanted: t
             await party.until(lambda: party.body.did == [f"look {thing}" for thing in wanted])
 
 
+async def test_another_order_than_what_was_only_offered_is_done_though_both_drive() -> None:
+    async with crew("A") as party:
+        told = ChatAction(
+            queue=(find("box"), drive()), targets=("A",), needs_yes="box", by=ENGINE, behalf=KIM
+        )
+        party.observer.publish(topics.CHAT_ACTION, told)
+        await party.until(lambda: proposals(party))
+        (offered,) = proposals(party)
+        other = {"queue": (find("lid"), drive()), "needs_yes": "", "replaces": offered["id"]}
+        party.observer.publish(topics.CHAT_ACTION, told.model_copy(update=other))
+        await party.until(lambda: len(party.body.did) == 2)
+        assert party.body.did[0] == "find lid"
+
+
 async def test_policy_from_the_start_is_told_when_the_robot_comes() -> None:
     async with crew("A", ask_first=["A"]) as party:
         await party.until(lambda: "A" in party.observer.plans)

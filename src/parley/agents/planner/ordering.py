@@ -324,5 +324,9 @@ class Ordering:
 
 
 def _deeds(calls: Sequence[ActionCall]) -> set[str]:
-    """What steps do, whatever leads to them."""
-    return {f"{call.name} {sorted(call.input_parameters.items())}" for call in calls}
+    """What steps do; one that is told nothing itself goes by those before it."""
+    found: list[str] = []
+    for call in calls:
+        led = found[-1] if found and not call.input_parameters else ""
+        found.append(f"{led} {call.name} {sorted(call.input_parameters.items())}")
+    return {*found}
