@@ -67,6 +67,22 @@ PLAN = ("gate 1", "gate 2", "workshop")
 @pytest.mark.parametrize(
     ("said", "order"),
     [
+        ("skip the red one", "gate 1, blue barrel"),
+        ("the blue one first", "blue barrel, gate 1, red barrel"),
+        ("only the red one and the blue one", "red barrel, blue barrel"),
+        ("everything but the blue one", "gate 1, red barrel"),
+        ("leave gate 1 for later", "red barrel, blue barrel, gate 1"),
+        ("no gates, just the red one", "red barrel"),
+        ("not gate 1, the blue one only", "blue barrel"),
+    ],
+)
+def test_one_is_one_of_the_plan(said: str, order: str) -> None:
+    assert ", ".join(after(said, "gate 1", "red barrel", "blue barrel")) == order
+
+
+@pytest.mark.parametrize(
+    ("said", "order"),
+    [
         ("swap the first two", "gate 2, gate 1, workshop"),
         ("please switch gate 1 and the workshop", "workshop, gate 2, gate 1"),
         ("do the workshop first", "workshop, gate 1, gate 2"),

@@ -78,10 +78,12 @@ class Builder(Doing):
             made = self._planned(wish, values)
         return made if isinstance(made, Ask) else self._repeated(wish, made, times)
 
-    def _repeated(self, wish: Wish, made: list[Deed], times: int) -> list[Deed]:
-        """So many times; another picture of one thing is taken where it stands."""
-        again = made[-1:] if wish.frame == "PHOTO" and self.whole is None else made
-        return [*made, *again * (times - 1)]
+    @staticmethod
+    def _repeated(wish: Wish, made: list[Deed], times: int) -> list[Deed]:
+        """So many times; another picture is taken where it stands."""
+        if wish.frame == "PHOTO":
+            return [deed for deed in made for _ in range(times if deed.frame == "PHOTO" else 1)]
+        return made * times
 
     @staticmethod
     def _is_met(wish: Wish) -> bool:

@@ -31,7 +31,7 @@ from parley.language.builtin.tagger import shipped_tagger
 from parley.language.builtin.things import head_of, link
 from parley.language.builtin.tokens import Token, spoken, tokenize
 from parley.language.dialogue.facts import in_mind
-from parley.language.dialogue.following import in_turn
+from parley.language.dialogue.following import in_turn, with_names_for_ones
 from parley.language.dialogue.replies import read_reply
 from parley.language.dialogue.state import Asked, Dialogue, Order
 from parley.language.dialogue.teaching import founded, taught_in, with_names
@@ -119,7 +119,8 @@ class BuiltinLanguage:
             return Ask("I did not understand that. Please say what I should do.")
         names = _names(tuple(item.description for item in situation.objects))
         situation = replace(situation, message=self._meant(uncalled(situation, self._lexicon), names))
-        situation = self._with_past(replace(situation, message=in_turn(situation.message)))
+        situation = replace(situation, message=in_turn(situation.message))
+        situation = self._with_past(replace(situation, message=with_names_for_ones(situation)))
         situation = replace(situation, memory=(*situation.memory, *in_mind(situation)))
         if (taught := own_words(situation, self._lexicon, self.decide)) is not None:
             return taught

@@ -491,6 +491,14 @@ def _well(situation: Situation, about: str) -> str:
     return _battery(situation, about) if low else "I am well, thank you."
 
 
+def _will_visit(situation: Situation, about: str) -> str:
+    things = _things(situation, about)
+    words = " ".join(step.label for step in _steps_left(situation)).lower()
+    comes = "Yes" if any(thing.description.lower() in words for thing in things) else "No"
+    waits = not words and situation.dialogue.proposal is not None
+    return f"{'' if waits else f'{comes}. '}{_left(situation, '')}" if things else ""
+
+
 def _battery(situation: Situation, about: str) -> str:
     battery = situation.dialogue.battery
     return (
@@ -580,7 +588,7 @@ _TOPICS: Final[dict[str, Callable[[Situation, str], str]]] = {
     "where_are_you": _where, "been": _been, "there_yet": _there_yet, "going_before": _going_before,
     "where_going": _where_going, "why_stopped": _why_stopped, "waiting_for": _waiting, "why_not": _why_not,
     "why_not_go": _why_not_go, "why": _why, "what_doing": _doing, "what_left": _left, "what_did": _did,
-    "before_stop": _before_stop, "beside_step": _beside, "asked": _asked,
+    "will_visit": _will_visit, "before_stop": _before_stop, "beside_step": _beside, "asked": _asked,
     "what_seen": _seen, "what_else_seen": _else, "seen_thing": _seen_thing, "how_long": _how_long,
     "how_far": _how_far, "whats_in": _whats_in, "places": _places, "amiss": _amiss,
     "battery": _battery, "able": _able, "name": _name, "time": _time, "told_about": _told_about,

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from typing import Final
 
 from parley.language.base import Situation
-from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.lexicon import Lexicon, stem
 from parley.language.builtin.saying import listed, which_one
 from parley.language.builtin.spatial import beside
 from parley.language.builtin.tokens import Token
-from parley.language.dialogue.changes import Change, Visit, is_against, moved, visits_of
+from parley.language.dialogue.changes import Change, Visit, is_against, moved, visits, visits_of
 from parley.language.dialogue.map_words import Named, named, same_kind
 from parley.language.dialogue.state import Order
 from parley.language.lexicon import word_set
@@ -19,7 +19,7 @@ from parley.messages.status import PlanStep
 from parley.world.object_map import MapObject
 from parley.world.whereabouts import called
 
-__all__ = ["followed", "in_turn"]
+__all__ = ["followed", "in_turn", "with_names_for_ones"]
 
 _SMALL: Final = word_set("""and also too now then next the as well please same for with likewise ditto how
 about in at to do it that thing again once more but no not i mean meant sorry oh just instead actually
@@ -44,8 +44,32 @@ def in_turn(message: str) -> str:
     return _DONE.sub(" ", message).strip(" ,") or message
 
 
+def with_names_for_ones(situation: Situation) -> str:
+    """A message with "the kitchen one", "the one by the door" as what that is called in the plan."""
+    names = {thing.description for visit in visits(situation) for thing in visit.things}
+    if situation.question or (situation.dialogue.asked is not None and situation.dialogue.asked.choices):
+        return situation.message  # it is one of those
+
+    def called_so(found: re.Match[str]) -> str:
+        said = {stem(word) for word in (found["which"] or found["where"]).lower().split()} - _LEADING
+        hits = [name for name in names if said and said <= {stem(word) for word in name.lower().split()}]
+        return f"the {hits[0]}" if len(hits) == 1 else found[0]
+
+    return _ONE.sub(called_so, situation.message)
+
+
+_LEADING: Final = word_set("the in at near by next to on behind under beside with from of close")
+_ONE: Final = re.compile(
+    r"\b(?:the|that) (?P<which>(?:(?!one\b)[\w'-]+ ){1,3})one\b|"
+    r"\b(?:the|that) one (?P<where>(?:in|at|near|by|next to|on|behind|under|beside|with|from) [\w' -]+?)"
+    r"(?=\W*(?:$|[,.;!?]|\b(?:and|first|last|too|instead|then|please|again|now|before|after|for|at)\b))",
+    re.IGNORECASE,
+)
+
+
 _WAY: Final = re.compile(
-    r"^(?:(?:ok|okay|and|then|but|please)\W+)*on (?:your|the) way(?: back| home| there| past)?\W+"
+    r"^(?:(?:ok|okay|and|then|but|please)\W+)*(?:on (?:your|the) way(?: back| home| there| past)?|"
+    r"while you(?: are|['’]re) (?:there|at it|on it|in there|around))\W+"
     r"(?=(?:(?:please|also|just|then) )*(?:look|check|have|take|see|stop|go|inspect|bring|drive|pick)\b)",
     re.IGNORECASE,
 )
