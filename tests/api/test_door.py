@@ -70,6 +70,17 @@ async def test_what_a_person_says_is_done_and_told() -> None:
         assert (await p.settled("A")).state == "idle"
 
 
+async def test_to_go_on_is_a_yes_to_what_a_robot_that_stands_has_just_asked() -> None:
+    async with parley(speed=1.0) as p, p.events("A") as events:
+        await p.say("A", "go to the green crate")
+        await p.say("A", "stop")
+        asked = await p.say("A", "turn around instead")
+        assert p.proposal("A") is not None and "Shall I?" in asked.message
+        await p.say("A", "carry on")
+        assert await ended(events) == ["finished", "skipped", "finished"]
+        assert p.proposal("A") is None and p.plan("A").steps[2].label.startswith("Turn")
+
+
 @pytest.mark.parametrize("by", [BOT, Principal()])
 async def test_a_program_that_nobody_knows_proposes_by_words_and_by_orders(by: Principal) -> None:
     async with parley(by) as p:

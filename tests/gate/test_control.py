@@ -197,3 +197,8 @@ def test_what_goes_on_to_name_something_is_no_control(text: str) -> None:
 @pytest.mark.parametrize("text", ["Leave out A", "leave A out", "can you move it?", "move it"])
 def test_what_may_name_a_thing_is_no_order_of_the_plan(text: str) -> None:
     assert control_of(text) is None
+
+
+@pytest.mark.parametrize("text", ["there is a box by the gate, ignore it", "the bin is full, leave it"])
+def test_what_is_told_of_is_ignored_and_not_a_step(text: str) -> None:
+    assert control_of(text) is None

@@ -121,9 +121,14 @@ def _in_full(text: str, words: tuple[str, ...], called: set[str]) -> Control | N
         last = meant(rest) if rest else None
         return next((control for control in _CONTROLS if control == last), None)
     among = among_talk([part for part in parts if not part or not set(part) <= called], meant)
+    told = sum(len(part) for part in parts if meant(part) is None)
+    if among == "skip" and told > 2 and not _OF_ANYTHING.isdisjoint(words) and "step" not in words:
+        return None  # "there is a box, ignore it": that is what was just told of
     return next((control for control in _CONTROLS if control == among), None)
 
 
+_OF_ANYTHING = frozenset({"leave", "ignore"})
+"""Verbs that mean a step only where nothing else was spoken of."""
 _TAKING_BACK = (
     ("no", "i", "mean"), ("i", "mean"), ("i", "meant"), ("no", "wait"), ("or", "rather"), ("rather",),
     ("no", "actually"),

@@ -80,6 +80,11 @@ def test_one_is_one_of_the_plan(said: str, order: str) -> None:
     assert ", ".join(after(said, "gate 1", "red barrel", "blue barrel")) == order
 
 
+@pytest.mark.parametrize("said", ["look at gate 3 instead", "no, look at gate 3", "rather look at gate 3"])
+def test_any_order_may_come_in_the_place_of_what_is_done(said: str) -> None:
+    assert ", ".join(after(said, "gate 1", "workshop")) == "gate 3, gate 3, workshop"
+
+
 @pytest.mark.parametrize(
     ("said", "order"),
     [

@@ -100,7 +100,7 @@ class Controls:
         offered = self._offered.newest(target)
         latched = control == "start" and status is not None and status.state == "stopped"
         reply = LATCHED if latched else self._nothing_to_do(target, control, said)
-        if control == "start" and not latched and state in ("awaiting_approval", "held") and offered:
+        if control == "start" and not latched and offered and self._goes_on_with(offered, state):
             self._say_yes(target, offered, said)
             return
         if control == "emergency_stop":
@@ -117,6 +117,11 @@ class Controls:
             self._ask_to_drop(target, whose, said)
         else:
             self.act(target, control, said)
+
+    def _goes_on_with(self, offered: PlanProposal, state: str) -> bool:
+        """Whether to go on means to do what waits, which is in no doubt where a robot stands in its work."""
+        asked = state == "paused" and self._offered.is_asked(offered.target) and not offered.why
+        return asked or state in ("awaiting_approval", "held")
 
     def _nothing_to_do(self, target: str, control: Control, said: ChatInput) -> str:
         state, status = self._known.state(target), self._presence.get(target)

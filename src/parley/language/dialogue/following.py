@@ -45,7 +45,7 @@ def in_turn(message: str) -> str:
 
 
 def with_names_for_ones(situation: Situation) -> str:
-    """A message with "the kitchen one", "the one by the door" as what that is called in the plan."""
+    """A message with "the red one", "the one by the door" as what that is called in the plan."""
     names = {thing.description for visit in visits(situation) for thing in visit.things}
     if situation.question or (situation.dialogue.asked is not None and situation.dialogue.asked.choices):
         return situation.message  # it is one of those

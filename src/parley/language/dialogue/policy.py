@@ -295,9 +295,23 @@ def promised(situation: Situation, lexicon: Lexicon, again: Again) -> Answer | N
     return None
 
 
+_IN_PLACE: Final = re.compile(
+    r"^(?:no[,;:.!]+ |rather |instead,? )|\W+(?:instead|rather)(?=\W*$)", re.IGNORECASE
+)
+
+
+def _instead(made: Decision, heard: Heard) -> Decision:
+    """The order to be done in the place of what is planned, whatever it is: "take a picture instead"."""
+    situation, order = heard.situation, _IN_PLACE.sub("", heard.situation.message)
+    asks = isinstance(made, Ask) and not made.choices and _known_plan(situation)
+    wanted = heard.again(order) if asks and order != situation.message else made
+    return wanted if isinstance(wanted, Do) else made
+
+
 def afterwards(made: Decision, heard: Heard) -> Decision:
     """What is made of what was decided about the message alone."""
     situation, reading, bare = heard.situation, heard.reading, heard.bare
+    made = _instead(made, heard)
     if isinstance(made, Do):
         if made.robots and situation.robot not in made.robots:
             return made  # nothing of what this one does or offers is meant
