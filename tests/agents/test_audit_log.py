@@ -211,6 +211,12 @@ async def test_a_button_that_is_sent_again_stands_in_the_log_once() -> None:
             "Refused (Ada): Only a person may say yes.",
         ),
         (topics.AUDIT, AuditEvent(effect="sign_in", by=KIM), "Kim (phone) signed in."),
+        (topics.AUDIT, AuditEvent(effect="sign_in", outcome="refused"), "Somebody was not let in."),
+        (
+            topics.AUDIT,
+            AuditEvent(effect="sign_in", outcome="refused", detail={"name": "Kim"}),
+            "Somebody was not let in as “Kim”.",
+        ),
         (
             topics.CHAT_INPUT,
             ChatInput(message="go\n7 Lee said yes\u202e", targets=("Ada",), by=KIM),

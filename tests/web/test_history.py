@@ -12,6 +12,7 @@ from parley.gate.audit_store import AuditStore
 from parley.messages import topics
 from parley.messages.audit import AuditEntry
 from parley.messages.chat import ActionCall, ChatAction, ChatInput
+from parley.messages.failure import FailureReport
 from parley.messages.incident import Incident
 from parley.messages.principal import person
 from parley.messages.status import GraphEvent, PlanUpdate, StopCommand
@@ -36,6 +37,14 @@ def graph(rig: Rig, name: str, state: str, unix_ms: int, result: str = "") -> No
     event = GraphEvent(
         actor="Ada", graph_name=name, sequence=0, kind="graph", state=state, result=result, unix_ms=unix_ms
     )
+    rig.robots.tell(topics.GRAPH_EVENTS, event)
+
+
+def node(rig: Rig, name: str, state: str, unix_ms: int, **more: str) -> None:
+    event = GraphEvent.model_validate(
+        {"actor": "Ada", "graph_name": "one", "sequence": 0, "kind": "node", "node": name, "state": state,
+         "unix_ms": unix_ms, **more}
+    )  # fmt: skip
     rig.robots.tell(topics.GRAPH_EVENTS, event)
 
 
@@ -94,23 +103,17 @@ async def test_how_long_it_took_counts_neither_the_wait_for_an_answer_nor_standi
     async with logged() as rig:
         await order(rig, "one", "look at the box", BEGAN_MS)
 
-        def node(name: str, state: str, at_ms: int) -> None:
-            event = GraphEvent(
-                actor="Ada", graph_name="one", sequence=0, kind="node", node=name, state=state, unix_ms=at_ms
-            )
-            rig.robots.tell(topics.GRAPH_EVENTS, event)
-
-        node("Inspect_1", "RUNNING", BEGAN_MS)
-        node("Inspect_1", "PAUSED", BEGAN_MS + 1000)
-        node("Inspect_1", "RUNNING", BEGAN_MS + 4000)
-        node("Inspect_1", "FINISHED", BEGAN_MS + 6000)
-        node("AskOperator_1", "RUNNING", BEGAN_MS + 6000)
+        node(rig, "Inspect_1", "RUNNING", BEGAN_MS)
+        node(rig, "Inspect_1", "PAUSED", BEGAN_MS + 1000)
+        node(rig, "Inspect_1", "RUNNING", BEGAN_MS + 4000)
+        node(rig, "Inspect_1", "FINISHED", BEGAN_MS + 6000)
+        node(rig, "AskOperator_1", "RUNNING", BEGAN_MS + 6000)
         ask = ActionCall(name="AskOperator").model_dump()
         asks = {"action": ask, "node": "AskOperator_1", "state": "waiting"}
         told = {"target": "Ada", "graph_name": "one", "state": "running", "steps": [asks]}
         rig.robots.tell(topics.PLAN, PlanUpdate.model_validate(told))
         await rig.heard()
-        node("AskOperator_1", "FINISHED", BEGAN_MS + 30_000)
+        node(rig, "AskOperator_1", "FINISHED", BEGAN_MS + 30_000)
         graph(rig, "one", "FINISHED", BEGAN_MS + 30_001)
         await rig.heard()
         (found,) = (await rig.http.get("/api/history")).json()["rounds"]
@@ -120,12 +123,14 @@ async def test_how_long_it_took_counts_neither_the_wait_for_an_answer_nor_standi
 async def test_the_next_shift_is_told_what_was_done_what_failed_what_waits_and_who_stopped_what() -> None:
     async with logged() as rig:
         await order(rig, "one", "look at the box", BEGAN_MS)
+        report = FailureReport(message="I looked, but I cannot see the box.", code=FailureCode.NO_MATCH)
+        node(rig, "Inspect_1", "ERROR", BEGAN_MS + 1000, result="on_error", message=report.to_text())
         graph(rig, "one", "FINISHED", BEGAN_MS + 2000, "on_error")
         rig.robots.tell(topics.STOP, StopCommand(targets=("Ada",), by=KIM))
         rig.robots.ask("Which box?", "red", "blue")
         await rig.heard()
         told = (await rig.http.get("/api/history/handover?since=1")).json()
-        assert [one["state"] for one in told["rounds"]] == ["failed"]
+        assert [(one["state"], one["reason"]) for one in told["rounds"]] == [("failed", report.message)]
         assert [text for _, text in told["stops"]] == ["Kim (page on a phone) stopped Ada."]
         assert "Ada asks: Which box?" in told["waits"]
         later = (await rig.http.get(f"/api/history/handover?since={BEGAN_MS + 1}")).json()

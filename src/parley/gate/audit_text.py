@@ -74,9 +74,13 @@ def what_of(detail: dict[str, Any]) -> Sentence:
 def told(event: AuditEvent) -> Sentence:
     """What happened, in one sentence on one line: no words in it look like another entry."""
     event = AuditEvent.model_validate(_on_one_line(event.model_dump(include=set(AuditEvent.model_fields))))
+    if event.outcome == "refused" and event.effect == "sign_in":
+        as_whom = event.detail.get("name")
+        kept_out = sentence("Somebody was not let in.")
+        return sentence("Somebody was not let in as “{name}”.", name=as_whom) if as_whom else kept_out
     if event.outcome == "refused" and event.by is None:  # whose it was is not known
         about = event.robot or sentence("all robots")
-        return sentence("Refused ({robot}): {reason}", robot=about, reason=event.reason or event.effect)
+        return sentence("Refused ({robot}): {reason}", robot=about, reason=event.reason or _plain(event))
     if event.outcome == "refused":
         refused = sentence("Refused: {what}.", what=_plain(event))
         return together(refused, event.reason)

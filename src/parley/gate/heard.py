@@ -17,6 +17,7 @@ from parley.gate.work_time import WorkTime
 from parley.latest import Latest
 from parley.messages.audit import AuditEvent
 from parley.messages.chat import ActionCall, ChatAction, ChatInput, Press
+from parley.messages.failure import FailureReport
 from parley.messages.memory import AddToMemory, MemoryEvent
 from parley.messages.principal import Principal
 from parley.messages.status import (
@@ -192,7 +193,7 @@ class Heard:
             if work := self._works.get(key):
                 work.on_node(event)
             if event.result == "on_error" and event.message and (facts := self._running.get(key)):
-                facts["reason"] = event.message
+                facts["reason"] = FailureReport.parse(event.message).message
             return []
         if event.kind == "graph" and event.state == "RUNNING" and self._running.get(key) is None:
             return [self._began(event, key)]
