@@ -34,9 +34,9 @@ async function inEach(stage: Stage, look: (page: Page, findings: Findings, words
 type Words = (file: string, key: string) => string;
 
 const wordsIn = (language: string): Words => (file, key) => {
-  const words = JSON.parse(readFileSync(`src/i18n/${language}/${file}.json`, 'utf8')) as Record<string, string>;
-  const found = words[key];
-  if (found === undefined) throw new Error(`there is no ${file}:${key}`);
+  const words = JSON.parse(readFileSync(`src/i18n/${language}/${file}.json`, 'utf8')) as unknown;
+  const found = key.split('.').reduce((part, name) => (part as Record<string, unknown> | undefined)?.[name], words);
+  if (typeof found !== 'string') throw new Error(`there is no ${file}:${key}`);
   return found.replace('{{robot}}', 'David').replace('{{name}}', 'David');
 };
 
@@ -173,7 +173,18 @@ async function boxes(stage: Stage, page: Page, words: Words, findings: Findings)
   await page.getByRole('button', { name: words('robots', 'add') }).click();
   await findings.look('add a robot', box);
   await close();
+  await go(stage, page, 'log');
+  for (const part of ['handover', 'log', 'rounds']) {
+    await page.getByRole('button', { name: words('log', `parts.${part}`) }).click();
+    await findings.look(part, page.getByText(/\d\d:\d\d/));
+  }
+  await go(stage, page, 'rules');
+  await page.getByRole('button', { name: words('rules', 'add') }).click();
+  await findings.look('making a rule', page.getByRole('button', { name: words('rules', 'save') }));
   await go(stage, page, '');
+  await page.getByRole('button', { name: words('favourites', 'title') }).click();
+  await findings.look('favourites', box);
+  await close();
   const chosen = page.waitForEvent('filechooser');
   await page.getByRole('button', { name: words('chat', 'attach') }).click();
   const photo = { name: 'box.png', mimeType: 'image/png', buffer: await page.screenshot({ type: 'png' }) };

@@ -4,7 +4,7 @@ import { mkdirSync } from 'node:fs';
 import type { Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
-import { barriers, hasBrowser, PATIENCE_MS, sizes, startStage, type Size, type Stage } from './stage';
+import { barriers, barriersInEveryLook, hasBrowser, PATIENCE_MS, sizes, startStage, type Size, type Stage } from './stage';
 
 const PASSWORD = 'correct horse battery';
 /** Git ignores it. */
@@ -70,11 +70,18 @@ describe.skipIf(!hasBrowser)('people', () => {
     await page.getByRole('button', { name: 'Make the account' }).click();
     await page.getByRole('listitem', { name: 'Kim' }).waitFor();
     await signInTitle(other).waitFor();
+    expect(await barriersInEveryLook(other)).toEqual([]);
 
     await makeAccount(page, 'Ann', 'Operator');
     await makeAccount(page, 'Vic', 'Viewer');
     await picture(page, 'people');
-    expect(await barriers(page)).toEqual([]);
+    expect(await barriersInEveryLook(page)).toEqual([]);
+    for (const box of ['Remove: Vic', 'New password: Vic']) {
+      await page.getByRole('button', { name: box }).click();
+      await page.getByRole('heading', { name: box }).waitFor();
+      expect(await barriersInEveryLook(page)).toEqual([]);
+      await page.keyboard.press('Escape');
+    }
     await page.getByRole('button', { name: 'Keep out: Kim' }).click();
     await page.getByText(/last supervisor/).first().waitFor();
   });

@@ -171,3 +171,20 @@ export async function barriers(page: Page, rules: Rules = 'all'): Promise<string
     { which: rules, colours: COLOURS },
   );
 }
+
+/** The same of a page in every size and look; what is open in it stays open. */
+export async function barriersInEveryLook(page: Page): Promise<string[]> {
+  const found: string[] = [];
+  const before = page.viewportSize() ?? sizes.desktop;
+  for (const [size, box] of Object.entries(sizes)) {
+    await page.setViewportSize(box);
+    for (const look of ['light', 'dark', 'contrast', 'forced']) {
+      await page.emulateMedia(look === 'forced' ? { forcedColors: 'active', colorScheme: 'dark' } : { forcedColors: 'none', colorScheme: 'light' });
+      await page.evaluate((theme) => (document.documentElement.dataset.theme = theme), look === 'forced' ? 'dark' : look);
+      found.push(...(await barriers(page, look === 'light' ? 'all' : 'colours')).map((barrier) => `${size} ${look}: ${barrier}`));
+    }
+  }
+  await page.setViewportSize(before);
+  await page.emulateMedia({ forcedColors: 'none', colorScheme: 'light' });
+  return found;
+}
