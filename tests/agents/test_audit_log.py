@@ -157,8 +157,11 @@ async def test_a_wish_stands_in_the_log_in_the_words_of_the_robots_own_plans() -
     async with rig() as r:
         await r.tell(topics.ACTOR_STATUS, ActorStatus(actor="Ada", catalogue=(known,)))
         await r.tell(topics.CHAT_ACTION, ChatAction(queue=(GO,), targets=("Ada",), by=ENGINE))
-        (entry,) = await r.log(robot="Ada")
-        assert told(entry) == "The language engine builtin wants this from Ada: Go to “box”."
+        await r.tell(topics.PLAN_DECISION, PlanDecision(target="Ada", decision="edit", steps=(GO,), by=KIM))
+        assert [str(told(entry)) for entry in await r.log(robot="Ada")] == [
+            "Kim (phone) changed the plan of Ada: Go to “box”.",
+            "The language engine builtin wants this from Ada: Go to “box”.",
+        ]
 
 
 async def test_who_holds_a_robot_while_words_are_read_releases_no_stop() -> None:

@@ -41,6 +41,9 @@ const paths = {
   fit: 'M4 9V4h5M20 9V4h-5M4 15v5h5M20 15v5h-5',
   rays: 'M5 19a1 1 0 1 0 0-.01M9 19a4 4 0 0 0-4-4M13.5 19A8.5 8.5 0 0 0 5 10.5M18 19A13 13 0 0 0 5 6',
   undo: 'M8 5 4 9l4 4M4 9h10a5 5 0 0 1 0 10h-4',
+  again: 'M20 11.5A8 8 0 1 0 17.7 17.6M20 5.5v6h-6',
+  save: 'M12 4v11M7 10.5l5 5 5-5M5 20h14',
+  print: 'M7 9V4h10v5M7 17H4V9h16v8h-3M7 14h10v6H7z',
   octagon: 'M8.3 3h7.4L21 8.3v7.4L15.7 21H8.3L3 15.7V8.3z',
 } as const;
 

@@ -47,7 +47,7 @@ export function MissionCard({ mission, isFolded = false }: Props) {
             ))}
           </ul>
           <a className={css.file} href={missionFile(mission.id)} download aria-label={t('file', { words: mission.words })}>
-            <Icon name="down" size={16} /> {t('fileShort')}
+            <Icon name="save" size={16} /> {t('fileShort')}
           </a>
         </>
       )}

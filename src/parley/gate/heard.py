@@ -152,7 +152,8 @@ class Heard:
         detail: dict[str, Any] = {"proposal": decision.id} if decision.id else {}
         if decision.policy:
             detail["policy"] = decision.policy
-        shown = labels(decision.steps) if decision.steps else _labels_of(proposal) if proposal else []
+        asked = _labels_of(proposal) if proposal else []
+        shown = self._wished(decision.target, decision.steps) if decision.steps else asked
         if shown:
             detail["labels"] = shown
         allowed = verdict(decision.by, effect) == "allow"

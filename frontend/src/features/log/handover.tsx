@@ -33,7 +33,7 @@ export function HandoverPart() {
           onChange={setOf}
         />
         <Button onPress={() => setAsked(Date.now())}>{t('again')}</Button>
-        <Button icon="plan" isDisabled={found.state !== 'ready'} onPress={() => window.print()}>
+        <Button icon="print" isDisabled={found.state !== 'ready'} onPress={() => window.print()}>
           {t('print')}
         </Button>
       </div>

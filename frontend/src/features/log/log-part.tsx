@@ -49,7 +49,7 @@ export function LogPart() {
         <Button tone="quiet" onPress={again}>
           {t('again')}
         </Button>
-        <Button icon="down" onPress={() => void attempt(async () => save(tableOf(await all(wish)), 'parley-log.csv'))}>
+        <Button icon="save" onPress={() => void attempt(async () => save(tableOf(await all(wish)), 'parley-log.csv'))}>
           {t('export')}
         </Button>
         {found.state === 'ready' && <Paging by={by} complete={found.value.complete ?? true} last={found.value.lines?.at(-1)?.number} />}
@@ -98,7 +98,7 @@ function Line({ line }: { line: LogLine }) {
       </time>
       <span>{line.text}</span>
       {line.words && line.robot && (
-        <Button needs="speak" tone="quiet" icon="undo" iconOnly aria-label={t('doAgain', { words: line.words })} onPress={() => sayAgain(line.robot ?? '', line.words ?? '')} />
+        <Button needs="speak" tone="quiet" icon="again" iconOnly aria-label={t('doAgain', { words: line.words })} onPress={() => sayAgain(line.robot ?? '', line.words ?? '')} />
       )}
     </li>
   );

@@ -102,13 +102,13 @@ function Round({ round }: { round: RoundView }) {
       <Findings round={round} title={title} />
       <div className={css.deeds}>
         {words && (
-          <Button needs="speak" icon="undo" aria-label={t('doAgain', { words })} onPress={() => sayAgain(round.robot, words)}>
+          <Button needs="speak" icon="again" aria-label={t('doAgain', { words })} onPress={() => sayAgain(round.robot, words)}>
             {t('againShort')}
           </Button>
         )}
         {words && <KeepButton words={words} />}
         <a className={css.file} href={roundFile(round.number, i18n.language)} download aria-label={t('file', { words: title })}>
-          <Icon name="down" /> {t('fileShort')}
+          <Icon name="save" /> {t('fileShort')}
         </a>
       </div>
     </li>

@@ -1,5 +1,6 @@
 /** Where names stand on a map: nearer to what they name than to anything else, and never over each other. */
-import type { MapRoom, MapThing } from '@/live/types';
+import type { MapRoom, MapThing, Rule } from '@/live/types';
+import { cornersOf, outline } from '@/ui/corners';
 import type { Place } from '@/ui/map-bounds';
 
 import { around, boxOf, middleOf, toScreen, type Box, type Size, type Viewport } from './viewport';
@@ -146,4 +147,10 @@ export function robotLabel(name: string, title: string, { x, y }: Place, radius:
 export function roomLabel(room: MapRoom, things: readonly MapThing[], view: Viewport, size: Size): Label {
   const [at, ...others] = [...freeIn(room, things, view.scale), middleOf(room)].map((place) => toScreen(view, size, place));
   return { id: `room ${room.name}`, texts: [room.name], at: at ?? { x: 0, y: 0 }, others, letterPx: ROOM_LETTER_PX, within: boxOf(room.corners, view, size) };
+}
+
+/** The name of a part of the map for which a rule holds. */
+export function zoneLabel(zone: Rule, things: readonly MapThing[], view: Viewport, size: Size): Label {
+  const corners = outline(cornersOf(zone)).map(([x, y]): [number, number] => [x, y]);
+  return { ...roomLabel({ name: zone.name ?? '', corners }, things, view, size), id: `zone ${zone.id}`, letterPx: LETTER_PX };
 }

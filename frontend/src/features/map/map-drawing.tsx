@@ -8,7 +8,7 @@ import { nameOf, type Candidates, type Mark } from './marks';
 import { PlaceMarks } from './place-marks';
 import type { Trails } from './use-trails';
 import type { Way as Trial } from './use-way';
-import { robotLabel, roomForLabels, roomLabel, textsOf, type Label } from './labels';
+import { robotLabel, roomForLabels, roomLabel, textsOf, zoneLabel, type Label } from './labels';
 import { boxOf, boxOfThing, extentOf, roomAt, toScreen, type Place, type Size, type Viewport } from './viewport';
 
 export interface Rover {
@@ -96,7 +96,7 @@ export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, tr
         ))}
       </g>
       <PlaceMarks things={map.objects} marked={marked?.kind === 'thing' ? marked.thing : null} view={view} size={size} />
-      <Labels things={map.objects} rooms={map.rooms} candidates={candidates} rovers={rovers} goals={goalsOf(rovers, trials)} view={view} size={size} robotPx={robotPx} />
+      <Labels things={map.objects} rooms={map.rooms} zones={zones} candidates={candidates} rovers={rovers} goals={goalsOf(rovers, trials)} view={view} size={size} robotPx={robotPx} />
       {rovers.map((rover) => {
         const at = toScreen(view, size, rover.pose);
         const heading = (-(rover.pose.yaw ?? 0) * 180) / Math.PI;
@@ -165,6 +165,7 @@ function Way({ rover, showScan }: { rover: Rover; showScan: boolean }) {
 
 interface LabelsProps {
   rooms: readonly MapRoom[];
+  zones: readonly Rule[];
   candidates: Candidates;
   things: readonly MapThing[];
   rovers: readonly Rover[];
@@ -175,7 +176,7 @@ interface LabelsProps {
   robotPx: number;
 }
 
-function Labels({ things, rooms, candidates, rovers, goals, view, size, robotPx }: LabelsProps) {
+function Labels({ things, rooms, zones, candidates, rovers, goals, view, size, robotPx }: LabelsProps) {
   const robots = rovers.map((rover): Label => {
     const at = toScreen(view, size, rover.pose);
     return robotLabel(rover.name, rover.title, at, robotPx);
@@ -191,8 +192,10 @@ function Labels({ things, rooms, candidates, rovers, goals, view, size, robotPx 
     return { id, texts, at: toScreen(view, size, thing), names: boxes[index], isInside, within: room ? boxOf(room.corners, view, size) : around };
   });
   const large = rooms.map((room) => roomLabel(room, things, view, size));
+  // A room that is closed says its name already.
+  const closed = zones.filter(({ name }) => name && !rooms.some((room) => room.name.toLowerCase() === name.toLowerCase())).map((zone) => zoneLabel(zone, things, view, size));
   const isFirst = ({ id }: Label) => id.startsWith('candidate');
-  const labels = [...robots, ...named.filter(isFirst), ...large, ...named.filter((one) => !isFirst(one))];
+  const labels = [...robots, ...named.filter(isFirst), ...large, ...closed, ...named.filter((one) => !isFirst(one))];
   const at = (place: Place, radius: number) => ({ at: toScreen(view, size, place), radius });
   const marks = [...rovers.map(({ pose }) => at(pose, robotPx)), ...goals.map((goal) => at(goal, GOAL_M * view.scale))];
   return (

@@ -124,6 +124,16 @@ describe('the map', () => {
     });
   });
 
+  it('writes on an area what its rule calls it, and not once more on a room that is closed', async () => {
+    const zone = { kind: 'keep_out', map: 'hall', robots: [], exempt: [], rectangle: [1, 1, 3, 2] };
+    const rules = ['Wet floor', 'Hall'].map((name) => ({ rule: { ...zone, id: name, name }, text: name, holds: true }));
+    vi.stubGlobal('fetch', network({ map: { json: mapInfo }, 'rules?language=en': { json: { rules } } }));
+    useLive.getState().takeSnapshot(snapshot({ info: { ...snapshot().info, modules: { rules: true } }, robots: [robot({ name: 'Ada' })], views: [mapView] }));
+    render(<MapPanel />);
+    await screen.findByText('Wet floor');
+    expect(document.querySelectorAll('text[data-of="zone"]')).toHaveLength(1);
+  });
+
   it('says in words where each robot of the same map is', async () => {
     await show();
     const list = within(screen.getByRole('region', { name: 'The map as a list' }));
