@@ -13,6 +13,7 @@ import parley
 from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.config import SystemConfig
 from parley.demos.catalogue import load_demo
+from parley.engine.runs import stop_latched
 from parley.gate.audit_text import told as told_of
 from parley.messages.audit import AuditEvent
 from parley.sentences import LANGUAGES, in_language
@@ -128,6 +129,13 @@ def test_what_is_noted_of_settings_has_a_form_in_every_language() -> None:
         (text, other) for text in told for other in others if ENGLISH.search(in_language(text, other))
     ] == []
     assert [(words, other) for words in noted for other in others if in_language(words, other) == words] == []
+
+
+def test_what_is_refused_while_a_stop_is_in_force_stands_in_the_log_in_every_language() -> None:
+    (problem,) = stop_latched("one", "Qqq").problems
+    told = told_of(AuditEvent(effect="begin", outcome="refused", robot="Qqq", reason=str(problem.message)))
+    assert [one for one in LANGUAGES if one != "en" and ENGLISH.search(in_language(told, one))] == []
+    assert in_language(told, "et") == "Keelduti (Qqq): Qqq on hädastopiga peatatud"
 
 
 def test_what_actions_say_of_themselves_has_a_form_in_every_language() -> None:

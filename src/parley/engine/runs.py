@@ -14,6 +14,7 @@ from typing import Any, Final
 
 from parley.clock import Clock
 from parley.errors import GraphRefusedError, Problem
+from parley.sentences import Sentence, sentence
 from parley.umrf.action import RunHandle
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.executor import STOP_TIMEOUT_S, GraphRun
@@ -307,11 +308,13 @@ def _kept(ended: Sequence[GraphRun]) -> int:
 
 def stop_latched(name: str, actors: str) -> GraphRefusedError:
     """Why nothing of the graph of that name may run: an emergency stop is in force at those actors."""
-    text, remedy = (
-        "was stopped by the emergency stop",
-        "make sure that it is safe, reset the stop, then go on",
-    )
-    return _refused(name, "stop_latched", f"{actors} {text}", remedy)
+    remedy = "make sure that it is safe, reset the stop, then go on"
+    return _refused(name, "stop_latched", stopped_by_stop(actors), remedy)
+
+
+def stopped_by_stop(actors: str) -> Sentence:
+    """Why nothing is begun there."""
+    return sentence("{robot} was stopped by the emergency stop", robot=actors)
 
 
 def _refused(name: str, code: str, message: str, remedy: str) -> GraphRefusedError:

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from parley.clock import Clock
+from parley.engine.runs import stopped_by_stop
 from parley.errors import ActionFailure, FailureCode, Problem
 from parley.latest import Latest
 from parley.messages.status import ActorStatus, SyncEntry, SyncNotice
@@ -322,7 +323,7 @@ class Sync:
         if status is None or status.state == "leaving":
             return f"{actor} is not there"
         if status.state == "stopped":
-            return f"{actor} was stopped by the emergency stop"
+            return stopped_by_stop(actor)
         return f"{actor} is there, but {did_not}"
 
     def lost(self, actor: str, graph_name: str, since_s: float) -> str:
