@@ -48,8 +48,9 @@ def node(rig: Rig, name: str, state: str, unix_ms: int, **more: str) -> None:
     rig.robots.tell(topics.GRAPH_EVENTS, event)
 
 
-def plan(rig: Rig, name: str, step: str, state: str) -> None:
-    steps = [{"action": LOOK.model_dump(), "label": f"look at <{name}>", "state": step}]
+def plan(rig: Rig, name: str, step: str, state: str, *orders: str) -> None:
+    one = {"action": LOOK.model_dump(), "label": f"look at <{name}>", "state": step}
+    steps = [{**one, "order": order} for order in orders] or [one]
     told = {"target": "Ada", "graph_name": name, "state": state, "steps": steps}
     rig.robots.tell(topics.PLAN, PlanUpdate.model_validate(told))
 
@@ -97,6 +98,23 @@ async def test_every_round_stands_with_who_wanted_it_how_it_ended_and_what_was_s
         assert [one["steps"] for one in await rounds("language=et")] == [["vaata <two>"], ["vaata <one>"]]
         assert "data:image/jpeg;base64," in file.text and "Kim (leht telefonis)" in file.text
         assert (await rig.http.get("/api/history/file?number=1")).status_code == 404
+
+
+async def test_what_was_wished_while_it_went_on_stands_beside_what_was_wished_first() -> None:
+    async with logged() as rig:
+        await order(rig, "one", "look at the box", BEGAN_MS)
+        for name in ("one", "two", "three"):  # nothing of the last becomes part of it
+            words = {"one": "look at the box", "two": "Is the door shut?", "three": "no"}[name]
+            rig.robots.tell(topics.CHAT_INPUT, ChatInput(id=name, message=words, targets=("Ada",), by=KIM))
+            rig.robots.tell(
+                topics.CHAT_ACTION, ChatAction(queue=(LOOK,), targets=("Ada",), reply_to=name, id=name)
+            )
+        plan(rig, "one", "finished", "running", "one", "two")
+        await rig.heard()
+        graph(rig, "one", "FINISHED", BEGAN_MS + 2000)
+        await rig.heard()
+        (found,) = (await rig.http.get("/api/history")).json()["rounds"]
+        assert (found["words"], found["state"]) == ("look at the box. Is the door shut?", "done")
 
 
 async def test_how_long_it_took_counts_neither_the_wait_for_an_answer_nor_standing_still() -> None:

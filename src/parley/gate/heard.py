@@ -65,6 +65,7 @@ class Heard:
         self._presses: Latest[str, None] = Latest()
         self._beats: Latest[str, int] = Latest()
         self._catalogues: Latest[str, Sequence[ActionInfo]] = Latest()
+        self._wishes: Latest[str, str] = Latest()
 
     def _is_repeat(self, press: Press | None) -> bool:
         """Whether a button's press was heard before: it is sent until somebody takes it."""
@@ -101,6 +102,7 @@ class Heard:
             was_said = any(one.message == order.words for one in self._said.values())
             words = order.words if was_said else said.message
             asked = {"asked_by": said.who.model_dump(), "asked": words}
+            self._wishes[order.id] = words
         events = [
             AuditEvent(effect=EFFECT_OF[command.command], by=order.by, robot=robot, outcome="asked",
                        detail={"command": command.command, **_named(command.arguments), **asked})
@@ -131,7 +133,7 @@ class Heard:
                 return []
             key = f"{last.target}\n{last.graph_name}"
             facts, worked = self._running.pop(key, None), self._worked(key)
-            return [_over(last, facts, worked)] if facts else []
+            return [_over(last, facts, {**worked, **self._done(last.steps)})] if facts else []
         if self._proposals.get(told.id) is not None:
             return []
         self._proposals[told.id] = told
@@ -223,7 +225,7 @@ class Heard:
         plan = self._plans.get(event.actor)
         detail = {**facts["detail"], "state": event.state, **worked}
         if plan and plan.graph_name == event.graph_name and plan.steps:
-            detail |= _done(plan.steps)
+            detail |= self._done(plan.steps)
         failed = event.state == "ERROR" or event.result == "on_error"
         return AuditEvent.model_validate(
             {"effect": "end", "by": facts["by"], "robot": event.actor, "detail": detail,
@@ -292,6 +294,14 @@ class Heard:
         reason = " ".join(problem.message for problem in told.problems)
         return [AuditEvent(effect=effect, robot=told.target, outcome="refused", reason=reason, detail=detail)]
 
+    def _done(self, steps: Sequence[PlanStep]) -> dict[str, Any]:
+        """What the steps were, which were left out, and all that was wished, not only what was at first."""
+        left = labels(left_out(steps))
+        orders = dict.fromkeys(step.order for step in steps if step.order)
+        wishes = dict.fromkeys(words for one in orders if (words := self._wishes.get(one)))
+        more = {"asked": " ".join(_ended_once(words) for words in wishes)} if len(wishes) > 1 else {}
+        return {"labels": labels(steps), **({"left": left} if left else {}), **more}
+
     def _asked(self, robot: str) -> dict[str, Any]:
         order = self._orders.get(robot)
         return dict(order["detail"]) if order else {}
@@ -313,9 +323,8 @@ def left_out(steps: Sequence[PlanStep]) -> list[PlanStep]:
     return left
 
 
-def _done(steps: Sequence[PlanStep]) -> dict[str, Any]:
-    left = labels(left_out(steps))
-    return {"labels": labels(steps), **({"left": left} if left else {})}
+def _ended_once(words: str) -> str:
+    return words if words.endswith((".", "?", "!")) else f"{words}."
 
 
 def _is_hidden(step: ActionCall | PlanStep) -> bool:
@@ -338,12 +347,12 @@ def _labels_of(proposal: PlanProposal) -> list[str]:
     return list(proposal.lines) or labels(proposal.steps)
 
 
-def _over(plan: PlanUpdate, facts: dict[str, Any], worked: dict[str, Any]) -> AuditEvent:
+def _over(plan: PlanUpdate, facts: dict[str, Any], done: dict[str, Any]) -> AuditEvent:
     """The end of a plan, by what became of its steps."""
     states = {step.state for step in plan.steps}
     failed = "failed" in states
     state = "ERROR" if failed else "FINISHED" if states <= {"finished", "skipped"} else "STOPPED"
-    detail = {**facts["detail"], "state": state, **worked, **_done(plan.steps)}
+    detail = {**facts["detail"], "state": state, **done}
     return AuditEvent(
         effect="end", by=facts["by"], robot=plan.target, detail=detail, digest=facts["digest"],
         outcome="failed" if failed else "done", reason=facts.get("reason", "") if failed else "",

@@ -119,7 +119,7 @@ def _round(
     return RoundView(
         number=start.number,
         robot=start.robot,
-        words=str(start.detail.get("asked", "")),
+        words=str(last.detail.get("asked", start.detail.get("asked", ""))),
         by=in_language(who_of(by), language) if by else "",
         approved_by=in_language(who_of(approved), language) if approved else "",
         unix_ms=start.unix_ms,
