@@ -135,6 +135,9 @@ describe.skipIf(!hasBrowser)('somebody new, in the home as it is opened', () => 
     await page.getByRole('button', { name: 'Go to the dining table.' }).click();
     await tabs.getByRole('button', { name: /^Ruth/ }).click();
     const [david, ruth] = await Promise.all([robotNamed(stage), robotNamed(stage, 'Ruth')]);
+    await say(page, 'Bring me my glasses.');
+    await tabs.getByRole('button', { name: 'Ruth is waiting for your answer' }).waitFor();
+    await page.getByRole('button', { name: 'Never mind' }).click();
     await say(page, 'Go to the bookshelf.');
     await Promise.all([untilItMoved(stage, david), untilItMoved(stage, ruth)]);
     await page.getByRole('button', { name: 'Stop all' }).click();

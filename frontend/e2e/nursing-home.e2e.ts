@@ -23,11 +23,24 @@ describe.skipIf(!hasBrowser)('an operator in the nursing home', () => {
     await say(page, 'There is a water bottle in the fridge.');
     await page.getByText(/I will remember that there is a water bottle/i).waitFor();
 
+    await say(page, 'Bring me my glasses.'); // what a reply lacks is asked for like anything else
+    const lacks = page.locator('li[data-question="open"]').filter({ hasText: 'glasses' });
+    await lacks.waitFor();
+    await expect.poll(() => page.title()).toBe('(1) Parley');
+    await page.getByRole('button', { name: 'Never mind' }).click();
+    await page.getByText('All right, then I leave it.').waitFor();
+    expect([await lacks.count(), await page.title()]).toEqual([0, 'Parley']);
+    await say(page, 'Bring me my glasses.');
+    await lacks.waitFor();
+    expect((await stage.get<{ waits: string[] }>('history/handover?since=1')).waits).toEqual([expect.stringMatching(/^David asks: .*glasses/)]);
+
     await stage.system.end();
     await page.getByText(/The connection is lost since/).waitFor();
     await stage.system.start();
     await page.getByText(/The connection is lost since/).waitFor({ state: 'detached' });
     await page.getByRole('textbox', { name: 'Write to David' }).waitFor();
+    await expect.poll(() => page.title()).toBe('Parley'); // it knows no more that it asked
+    expect(await lacks.count()).toBe(0);
 
     await say(page, 'John is thirsty, get him water.');
     const cards = steps(page).locator('li[data-state]');
