@@ -17,7 +17,7 @@ import css from './workspace.module.css';
 /** The chat with pictures and map; the plan comes with the first one that there is. */
 export function Workspace({ layout }: { layout: Layout }) {
   const pages = offered(useWorld((world) => world.info), useMayAll());
-  const isPlanned = useWorld((world) => Object.values(world.plans).some((plan) => plan.graph_name) || Object.keys(world.proposals).length > 0);
+  const isPlanned = useWorld((world) => Object.values(world.plans).some((plan) => plan.graph_name || plan.steps.length > 0) || Object.keys(world.proposals).length > 0);
   // It stays when nothing is planned any more: no button moves away under a finger.
   const [hasPlan, setHasPlan] = useState(isPlanned);
   if (isPlanned && !hasPlan) setHasPlan(true);
