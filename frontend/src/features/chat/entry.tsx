@@ -103,7 +103,7 @@ function Head({ entry, asks, isAnew, debug }: { entry: ChatEntry; asks: boolean;
         <>
           <strong>{names || t('everyone')}</strong>
           {asks && <span className={css.badge}>{t('asks')}</span>}
-          {entry.question === 'answered' && <span>{t(isAnew ? 'askedAnew' : 'answered')}</span>}
+          {entry.question === 'answered' && <span>{t(isAnew ? 'askedAnew' : afterwards(entry))}</span>}
           {(entry.question === 'closed' || entry.question === 'interrupted') && <span>{t(entry.question)}</span>}
           {entry.engine && <span data-engine>{entry.engine}</span>}
         </>
@@ -119,6 +119,9 @@ function Head({ entry, asks, isAnew, debug }: { entry: ChatEntry; asks: boolean;
     </p>
   );
 }
+
+/** Whatever is said next settles what a reply asks: only of what a robot waits for it is known that it was answered. */
+const afterwards = ({ type }: ChatEntry) => (type === 'request' ? 'answered' : 'asked');
 
 function Sources({ names, isStop }: { names: readonly string[]; isStop: boolean }) {
   const { t } = useTranslation('chat');
