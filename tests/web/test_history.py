@@ -15,7 +15,7 @@ from parley.messages.chat import ActionCall, ChatAction, ChatInput
 from parley.messages.failure import FailureReport
 from parley.messages.incident import Incident
 from parley.messages.principal import person
-from parley.messages.status import GraphEvent, PlanUpdate, StopCommand
+from parley.messages.status import GraphEvent, PlanDecision, PlanUpdate, StopCommand
 from parley.web.round_file import round_file
 from parley.web.rounds import rounds_of
 from tests.web.rig import HandClock, Rig, served
@@ -115,6 +115,15 @@ async def test_what_was_wished_while_it_went_on_stands_beside_what_was_wished_fi
         await rig.heard()
         (found,) = (await rig.http.get("/api/history")).json()["rounds"]
         assert (found["words"], found["state"]) == ("look at the box. Is the door shut?", "done")
+
+        rig.robots.tell(
+            topics.PLAN_DECISION, PlanDecision(target="Ada", decision="edit", steps=(LOOK,), by=KIM)
+        )
+        await rig.heard()
+        graph(rig, "four", "RUNNING", BEGAN_MS + 3000)  # put back: that is not what was said last
+        await rig.heard()
+        (again, _) = (await rig.http.get("/api/history")).json()["rounds"]
+        assert (again["words"], again["by"], again["steps"]) == ("", "Kim (page on a phone)", ["Inspect"])
 
 
 async def test_how_long_it_took_counts_neither_the_wait_for_an_answer_nor_standing_still() -> None:

@@ -35,6 +35,8 @@ from parley.messages.status import (
 
 __all__ = ["Heard", "left_out"]
 
+_OVER: Final = ("finished", "failed", "stopped", "skipped")
+
 _REFUSED: Final = {
     "chat_interface_input": Effect.SPEAK, "chat_action": Effect.BEGIN, "umrf_correction": Effect.REPAIR,
     "umrf_graph_start": Effect.BEGIN, "umrf_graph_modify": Effect.EDIT, "umrf_graph_pause": Effect.PAUSE,
@@ -160,7 +162,8 @@ class Heard:
             detail["labels"] = shown
         allowed = verdict(decision.by, effect) == "allow"
         if allowed and effect in (Effect.APPROVE, Effect.EDIT):
-            order = self._orders.get(decision.target) or {"by": decision.by, "detail": {}}
+            told = self._orders.get(decision.target) if self._carries_out(decision) else None
+            order = told or {"by": decision.by, "detail": {}}
             approved = {"approved_by": decision.by.model_dump()} if decision.by else {}
             facts = {**order["detail"], **approved}
             self._orders[decision.target] = {
@@ -175,6 +178,12 @@ class Heard:
                 outcome="done" if allowed else "asked",
             )
         ]  # fmt: skip
+
+    def _carries_out(self, decision: PlanDecision) -> bool:
+        """Whether it is about what was ordered last, and puts no steps where nothing is left to be done."""
+        plan = self._plans.get(decision.target)
+        left = [step for step in plan.steps if step.state not in _OVER] if plan else []
+        return decision.decision != "edit" or bool(decision.id or left)
 
     def on_status(self, status: ActorStatus, unix_ms: int) -> list[AuditEvent]:
         """A robot is heard of: if that is after a silence, what it did meanwhile is not known."""
@@ -298,8 +307,8 @@ class Heard:
         """What the steps were, which were left out, and all that was wished, not only what was at first."""
         left = labels(left_out(steps))
         orders = dict.fromkeys(step.order for step in steps if step.order)
-        wishes = dict.fromkeys(words for one in orders if (words := self._wishes.get(one)))
-        more = {"asked": " ".join(_ended_once(words) for words in wishes)} if len(wishes) > 1 else {}
+        wishes = _in_a_row([*dict.fromkeys(words for one in orders if (words := self._wishes.get(one)))])
+        more = {"asked": wishes} if wishes else {}
         return {"labels": labels(steps), **({"left": left} if left else {}), **more}
 
     def _asked(self, robot: str) -> dict[str, Any]:
@@ -323,8 +332,11 @@ def left_out(steps: Sequence[PlanStep]) -> list[PlanStep]:
     return left
 
 
-def _ended_once(words: str) -> str:
-    return words if words.endswith((".", "?", "!")) else f"{words}."
+def _in_a_row(wishes: Sequence[str]) -> str:
+    """Several, each as a sentence of its own; one as it is."""
+    ended = [words if words.endswith((".", "?", "!")) else f"{words}." for words in wishes[:-1]]
+    begun = [words[:1].upper() + words[1:] for words in (*ended, *wishes[-1:])[1:]]
+    return " ".join((*(ended or wishes)[:1], *begun))
 
 
 def _is_hidden(step: ActionCall | PlanStep) -> bool:
