@@ -1,5 +1,6 @@
 import { useTranslation } from 'react-i18next';
 
+import { useWorld } from '@/live/store';
 import type { Incident } from '@/live/types';
 import { useMoment } from '@/state/moment';
 import { useSelectionStore } from '@/state/selection';
@@ -14,13 +15,16 @@ import { stepInWords } from './telling';
 
 const MINUTE_MS = 60_000;
 
-const signs: Record<Incident['ending'], IconName> = {
+type Ending = Incident['ending'] | 'left';
+
+const signs: Record<Ending, IconName> = {
   open: 'bang',
   held: 'question',
   solved: 'check',
   skipped: 'skip',
   cancelled: 'cross',
   replaced: 'right',
+  left: 'cross',
 };
 
 /** What happened to one step, as a short story. */
@@ -30,19 +34,20 @@ export function IncidentCard({ incident }: { incident: Incident }) {
   const only = useSelectionStore((state) => state.only);
   const showMoment = useMoment((state) => state.show);
   const opened = incident.opened_unix_ms;
+  const ending = useEnding(incident);
   const toChat = () => {
     only(incident.robot);
     showMoment(opened);
     goTo('/');
   };
   return (
-    <li className={css.item} data-ending={incident.ending}>
+    <li className={css.item} data-ending={ending}>
       <p className={css.head}>
         <strong>{incident.robot}</strong>
         <time dateTime={new Date(opened).toISOString()}>{dayAndTime(opened, now, i18n.language)}</time>
         <span className={css.ending}>
-          <Icon name={signs[incident.ending]} size={16} />
-          {t(`ending.${incident.ending}`)}
+          <Icon name={signs[ending]} size={16} />
+          {t(`ending.${ending}`)}
         </span>
       </p>
       <h3>{incident.message || t('unsaid')}</h3>
@@ -73,4 +78,10 @@ export function IncidentCard({ incident }: { incident: Incident }) {
       </div>
     </li>
   );
+}
+
+/** How it ended; what waited for help does so only as long as its plan does. */
+function useEnding({ ending, graph_name }: Incident): Ending {
+  const waits = useWorld(({ plans }) => Object.values(plans).some((plan) => plan.graph_name === graph_name && (plan.state === 'held' || plan.state === 'paused')));
+  return ending === 'held' && !waits ? 'left' : ending;
 }

@@ -3,7 +3,7 @@ import userEvent from '@testing-library/user-event';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 
 import { network } from '@/gallery/network';
-import { incident, robot, snapshot } from '@/live/samples';
+import { incident, plan, robot, snapshot } from '@/live/samples';
 import { useLive } from '@/live/store';
 import { useMoment } from '@/state/moment';
 import { useSelectionStore } from '@/state/selection';
@@ -25,6 +25,16 @@ describe('the page of problems', () => {
     screen.getByText('Ada asked: Which box?');
     screen.getByText('Then somebody said: the red one');
     screen.getByText('Then: I take the red box.');
+  });
+
+  it('says that help is waited for only as long as that plan waits', async () => {
+    vi.stubGlobal('fetch', network({ incidents: { json: [incident({ id: 'a', ending: 'held' })] } }));
+    const robots = [robot({ name: 'Ada' })];
+    useLive.getState().takeSnapshot(snapshot({ robots, plans: [plan({ robot: 'Ada', graph_name: 'plan_1', state: 'held' })] }));
+    render(<IncidentsPage />);
+    await screen.findByText('Waiting for help');
+    act(() => useLive.getState().takeSnapshot(snapshot({ robots, plans: [plan({ robot: 'Ada', graph_name: 'plan_2', state: 'running' })] })));
+    await screen.findByText('Left undone');
   });
 
   it('follows what happens while it is open', async () => {
