@@ -82,6 +82,14 @@ def test_what_is_wrong_is_said_with_how_to_mend_it(
         need_ros(here)
 
 
+def test_where_the_settings_ask_for_a_ros_that_is_not_here_that_is_no_matter_of_taste(
+    tmp_path: Path,
+) -> None:
+    (finding,) = replace(machine(tmp_path, not_there), asked_for=True).findings()
+    assert (finding.state, finding.text) == ("missing", "It is not on this machine.")
+    assert "rosbridge" in finding.remedy
+
+
 def test_a_ros_that_can_be_used_is_told_with_its_rmw_and_domain(tmp_path: Path) -> None:
     here = machine(
         tmp_path,
@@ -106,16 +114,17 @@ def test_a_window_whose_domain_makes_no_sense_is_no_matter_where_the_settings_na
 
 
 def test_doctor_asks_for_the_domain_of_the_settings(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    asked: list[int | None] = []
+    asked: list[Ros2Settings | None] = []
 
-    def examine_ros(domain: int | None) -> tuple[Finding, ...]:
-        asked.append(domain)
+    def examine_ros(ros2: Ros2Settings | None) -> tuple[Finding, ...]:
+        asked.append(ros2)
         return ()
 
     monkeypatch.setattr("parley.doctor.examine_ros", examine_ros)
-    for network in (None, NetworkSettings(ros2=Ros2Settings(domain=42))):
+    wanted = Ros2Settings(domain=42)
+    for network in (None, NetworkSettings(ros2=wanted)):
         subject = Subject(data_dir=tmp_path, static_dir=tmp_path, port=8690, network=network)
         for finding in examine(subject):
             if finding.subject == "network":
                 break
-    assert asked == [None, 42]
+    assert asked == [None, wanted]

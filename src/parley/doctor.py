@@ -77,8 +77,7 @@ def examine(subject: Subject) -> Iterable[Finding]:
     )  # fmt: skip
     for check in checks:
         yield check(subject)
-    ros2 = subject.network.ros2 if subject.network is not None else None
-    yield from examine_ros(ros2.domain if ros2 is not None else None)
+    yield from examine_ros(subject.network.ros2 if subject.network is not None else None)
     yield from examine_network(subject.network)
     yield examine_time()
     if subject.robot is not None:

@@ -6,11 +6,12 @@ import os
 import sys
 import sysconfig
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib.machinery import PathFinder
 from pathlib import Path
 from typing import Final
 
+from parley.config import Ros2Settings
 from parley.errors import ConfigError
 from parley.findings import Finding
 
@@ -37,6 +38,8 @@ class Sourced:
     """Whose messages are needed."""
     domain: int | None = None
     """As the settings say; None: as ROS_DOMAIN_ID does."""
+    asked_for: bool = False
+    """Whether nothing goes without it."""
 
     def findings(self) -> Iterator[Finding]:
         """What is wrong, the first thing to mend first, or what is there."""
@@ -68,6 +71,9 @@ class Sourced:
 
     def _not_sourced(self) -> Finding:
         found = sorted(self.installed.glob("*/setup.bash"))
+        if not found and self.asked_for:
+            mend = f"Install ROS 2 (Jazzy or newer) and source its setup.bash, {_OTHERWISE}."
+            return Finding("ROS 2", "missing", "It is not on this machine.", mend)
         if not found:
             return Finding("ROS 2", "unused", "Not here; only robots that speak it need it.")
         mend = f"Run: source {found[-1]}"
@@ -105,9 +111,9 @@ class Sourced:
             yield Finding("ROS 2", "missing", text, _BUILD)
 
 
-def examine_ros(domain: int | None = None) -> Iterator[Finding]:
-    """Look at the ROS of this process; `domain` as the settings say, None: they do not."""
-    yield from Sourced(domain=domain).findings()
+def examine_ros(ros2: Ros2Settings | None = None) -> Iterator[Finding]:
+    """Look at the ROS of this process, for settings that ask for it or, None, do not."""
+    yield from Sourced(domain=ros2.domain if ros2 else None, asked_for=ros2 is not None).findings()
 
 
 def need_ros(sourced: Sourced | None = None) -> None:
@@ -116,7 +122,6 @@ def need_ros(sourced: Sourced | None = None) -> None:
     Raises:
         ConfigError: It cannot.
     """
-    first = next(iter((sourced or Sourced()).findings()))
+    first = next(iter(replace(sourced or Sourced(), asked_for=True).findings()))
     if first.state != "ok":
-        remedy = first.remedy or "Install ROS 2 (Jazzy or newer) and source its setup.bash."
-        raise ConfigError(f"ROS 2 cannot be used: {first.text} {remedy}")
+        raise ConfigError(f"ROS 2 cannot be used: {first.text} {first.remedy}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import subprocess
 import sys
 from collections.abc import AsyncIterator, Callable
@@ -39,6 +40,7 @@ from parley.robots.link import Link
 from parley.robots.nav2 import Nav2Robot, Nav2Setup
 from parley.robots.nav2_errors import failure_of
 from parley.robots.nav2_simulated import SimulatedNav2
+from parley.robots.ros_robot import LOST_S
 from parley.robots.ros_senses import RosTopics
 from parley.sim.simulator import Simulator
 from parley.transport.base import Endpoint, Publisher, Transport
@@ -379,6 +381,22 @@ async def test_while_the_program_hangs_it_stands() -> None:
         await until(lambda: on.nav2.robot.velocity().linear_mps > 0.2)
         assert blocked(on.nav2.robot, 1.2) < 1.0
         drive.cancel()
+
+
+async def test_a_drive_that_failed_while_the_program_hung_is_told_once_and_not_by_the_loop_besides() -> None:
+    told: list[dict[str, Any]] = []
+    asyncio.get_running_loop().set_exception_handler(lambda _, context: told.append(context))
+    async with stage("rosbridge") as on:
+        drive = asyncio.create_task(on.robot.navigate(ahead(on.robot, 3.5), NOT_PAUSED, timeout_s=20))
+        await until(lambda: on.nav2.robot.velocity().linear_mps > 0.2)
+        (inner,) = (task for task in asyncio.all_tasks() if "_there" in repr(task))
+        inner.add_done_callback(lambda _: blocked(on.nav2.robot, LOST_S + 0.5))
+        on.at_cable.post(on.cable.pull)
+        with pytest.raises(ActionFailure, match="does not answer"):
+            await drive
+    del inner, drive
+    gc.collect()
+    assert told == []
 
 
 def test_the_page_can_be_followed_with_the_simulated_robot(tmp_path: Path) -> None:

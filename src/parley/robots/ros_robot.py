@@ -394,7 +394,7 @@ class RosRobot(RobotBase):
                 drive.cancel()
                 self._unwatched = True
                 self._tell()
-                await asyncio.gather(drive, return_exceptions=True)
+            await asyncio.gather(drive, return_exceptions=True)
         if outcome.state is GoalState.SUCCEEDED:
             return True
         raise self._goals.failure(outcome, moved=self.pose().distance_to(began) > self.radius_m)
