@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import signal
 from collections.abc import AsyncIterator, Callable
 from contextlib import AsyncExitStack, asynccontextmanager
 from pathlib import Path
@@ -169,3 +170,12 @@ async def test_whatever_part_is_gone_the_robot_stands_and_nothing_is_lost_or_don
         assert system.begun("NavigateTo") <= began + 1
         assert system.begun("Inspect") == 1
         assert not system.heard("lacks") and not system.heard("did not get here"), "nobody missed anything"
+
+
+@pytest.mark.parametrize("_", range(4))
+async def test_parts_that_are_ended_together_with_their_router_end_at_once(tmp_path: Path, _: int) -> None:
+    async with driving(tmp_path) as (system, *_rest):
+        for process in system.processes.values():
+            process.send_signal(signal.SIGINT)
+        async with asyncio.timeout(8.0):
+            await asyncio.gather(*(process.wait() for process in system.processes.values()))

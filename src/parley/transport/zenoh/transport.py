@@ -42,9 +42,9 @@ _End = ZenohPublisher[Any] | ZenohSubscription[Any] | ZenohServer
 CLOSING_S: Final = 5.0
 """How long closing waits for the library; then the process goes on without."""
 SERVICE_QOS: Final = QoS(depth=10)
-NEVER_S: Final = 1e8
+UNTOLD: Final = ext.MissDetectionConfig(heartbeat=None, sporadic_heartbeat=None)
 """A sender tells its newest number with each message alone: told besides, those who came later would hear all
-that it keeps, as if they had missed it."""
+that it keeps, as if they had missed it. And closing what tells it holds all of Python up, up to 10 s."""
 _BLOCK: Final = zenoh.CongestionControl.BLOCK
 
 log = structlog.get_logger(__name__)
@@ -137,10 +137,9 @@ class ZenohTransport(RemoteTransport[Graph]):
                     self._session, place, cache=cache, publisher_detection=True, **options
                 )
             elif topic.qos.kept:
-                missed = ext.MissDetectionConfig(heartbeat=NEVER_S, sporadic_heartbeat=None)
                 cache = ext.CacheConfig(topic.qos.kept)
                 made = ext.declare_advanced_publisher(
-                    self._session, place, cache=cache, sample_miss_detection=missed, **options
+                    self._session, place, cache=cache, sample_miss_detection=UNTOLD, **options
                 )
             else:
                 made = self._session.declare_publisher(place, **options)
