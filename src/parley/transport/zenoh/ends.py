@@ -31,6 +31,8 @@ WORDS_KNOWN: Final = 64
 LONGEST_WORDS: Final = 4096
 """Bytes. So many of its newest messages of no more than that a publisher knows when they are said again,
 of topics on which that happens."""
+BELIEVED: Final = 1_000_000
+"""Who is further on than that counts no messages, or not as we do: nothing is lost."""
 SENDERS_KNOWN: Final = 256
 """Of how many publishers a subscription knows what number comes next; of more the oldest are forgotten."""
 
@@ -151,11 +153,12 @@ class ZenohSubscription(RemoteSubscription[M]):
 
     def _count_lost(self, attached: Attachment) -> None:
         before = self._numbers.pop(attached.gid, attached.number - 1)
-        self._numbers[attached.gid] = max(before, attached.number)  # less: it was said again
+        number = attached.number if attached.number - before <= BELIEVED else before
+        self._numbers[attached.gid] = max(before, number)  # less: it was said again
         if len(self._numbers) > SENDERS_KNOWN:
             del self._numbers[next(iter(self._numbers))]
-        if attached.number > before + 1:
-            self.lose(attached.number - before - 1)
+        if number > before + 1:
+            self.lose(number - before - 1)
 
     async def close(self) -> None:
         """See `Subscription.close`."""
