@@ -9,9 +9,19 @@ import pytest
 import structlog
 
 from parley.cli.ros_nodes import NAMES, Parameters
+from parley.demos.catalogue import load_demo
 from parley.errors import ConfigError
 
 PACKAGE = Path(__file__).parents[1] / "ros2" / "parley_ros"
+
+
+def test_the_order_on_the_page_is_for_a_robot_of_the_world_that_it_starts() -> None:
+    page = (PACKAGE.parents[1] / "docs" / "ros-nodes.md").read_text("utf-8")
+    world, name = (
+        re.search(r"simulation\.launch\.py world:=(\w+)", page),
+        re.search(r'targets\\": \[\\"(\w+)', page),
+    )
+    assert world and name and name[1] in load_demo(world[1]).everybody
 
 
 def test_parameters_become_settings_and_those_of_ros_are_passed_over(tmp_path: Path) -> None:
