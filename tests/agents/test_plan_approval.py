@@ -261,6 +261,15 @@ async def begun(party: Crew, *calls: ActionCall) -> None:
     await party.until(lambda: len(party.steps()) == 1 + len(calls))
 
 
+async def test_who_repairs_what_goes_on_already_is_told_that_the_robot_stands() -> None:
+    async with crew("A") as party:
+        await begun(party)
+        party.command("stop")
+        await party.state("paused")
+        party.correct()
+        await party.hears("I am still standing still. Say “carry on” when I should go on.")
+
+
 async def test_edit_takes_the_place_of_all_that_has_not_begun_and_another_restores_it() -> None:
     async with crew("A") as party:
         await begun(party, look("door"), look("lid"))

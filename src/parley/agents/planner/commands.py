@@ -75,7 +75,7 @@ class Commands:
                 return [Say(orders.STEP_OVER)] if step is None else plan.drop(step)
             case "skip":
                 stays = plan.pause_wanted and len(plan.pending) > 1
-                return [*plan.skip(), *([Say(self._still(plan.target))] if stays else ())]
+                return [*plan.skip(), *([Say(self.still(plan.target))] if stays else ())]
             case "pop":
                 return plan.pop(command.pop_index)
         return []  # memories are everybody's, see _remember
@@ -125,9 +125,9 @@ class Commands:
             self._plans.held_by.pop(plan.target, None)
             self._plans.send(plan, plan.start())
         elif calls and still and plan.update().state == "paused":
-            self._plans.say(plan.target, self._still(plan.target), "info")
+            self._plans.say(plan.target, self.still(plan.target), "info")
 
-    def _still(self, robot: str) -> str:
+    def still(self, robot: str) -> str:
         """That a robot goes on standing, and what lets it move."""
         status = self._plans.presence.get(robot)
         return LATCHED if status is not None and status.state == "stopped" else STILL
