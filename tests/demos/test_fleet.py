@@ -387,7 +387,7 @@ async def test_what_another_robot_does_already_is_asked_about_and_nothing_older_
         await home.say("go to the pump", "Spot")
         await home.done("Spot")
         await home.say("let TIAGo go to Area A", "Spot")
-        asked = await home.say("no, let Leo do that", "Spot")
+        asked = await home.say("let Leo do that", "Spot")
         assert asked.choices == ("Let Leo take over from TIAGo",)
         assert goals(home) == {"Spot": ["pump"], "TIAGo": ["Area A"], "Leo": []}
         told = await home.say("one of you go to the pump, the others go to Area B instead", "Spot")
@@ -400,6 +400,56 @@ async def test_what_another_robot_does_already_is_asked_about_and_nothing_older_
         await home.say("cancel everything", "TIAGo")
         await home.say("let Leo do that", "Spot")
         assert goals(home)["Leo"] == ["Area C"]
+
+
+async def test_after_a_no_another_one_does_what_was_said_last_or_what_the_hearer_is_at() -> None:
+    async with hall(speed=4.0) as home:
+        await home.say("let TIAGo go to the pump", "Spot")
+        await home.state("running", "TIAGo")
+        told = await home.say("No, let Leo do that", "Spot")
+        assert "TIAGo gives up what is left of its plan." in told.message
+        await home.state("running", "Leo")
+        await home.state("idle", "TIAGo")
+        await home.say("let Spot go", "Leo")
+        await home.state("running", "Spot")
+        await home.state("idle", "Leo")
+        await home.say("stop", "TIAGo")
+        await home.say("go to Area A", "TIAGo")
+        await home.say("yes", "TIAGo")
+        await home.state("running", "TIAGo")
+        await home.say("stop", "TIAGo")
+        refused = await home.say("let TIAGo go", "Spot")
+        assert refused.message == "TIAGo is waiting for somebody, so it gets no part."
+        assert goals(home)["Spot"] == ["pump"]
+
+
+async def test_a_yes_that_comes_late_is_asked_for_again_before_anybody_begins() -> None:
+    async with hall(approval="ask_first") as home:
+        await told(home, "check all areas", *ROBOTS)
+        await home.say("where are you?", "TIAGo")
+        again = await home.say("yes", "TIAGo")
+        assert again.message.endswith("Shall I?")
+        assert {home.observer.state(name) for name in ROBOTS} == {"awaiting_approval"}
+        await home.say("yes", "TIAGo")
+        for name in ROBOTS:
+            await home.done(name)
+
+
+async def test_behind_a_stop_that_answers_a_question_others_are_told_too() -> None:
+    async with hall() as home:
+        await home.say("look for the toolbox in Area B", "Spot")
+        await home.question("Spot")
+        home.observer.say("stop. Everybody back to the dock", "Spot", answer=True)
+        await home.observer.until(
+            lambda: any(one.message.endswith("Shall I?") for one in home.observer.said),
+            timeout_s=PATIENCE_S,
+        )
+        home.observer.say("yes", "Spot")
+        await home.observer.until(
+            lambda: any("Everybody back to the dock” is done" in one.message for one in home.observer.said),
+            timeout_s=PATIENCE_S,
+        )
+        assert all(home.distance_m("dock_1", name) < 1.6 for name in ROBOTS)
 
 
 @pytest.mark.parametrize(

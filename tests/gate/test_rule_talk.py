@@ -22,8 +22,11 @@ class Talk:
         self.keeper = RuleKeeper(self.book)
         self.talk = RuleTalk(self.book, self.keeper)
 
-    async def say(self, text: str, by: Principal = KIM, answers: str = "") -> RuleReply | None:
-        return await self.talk.reply(text, by, Listener("Ada", ("Ada",), self._places), answers=answers)
+    async def say(
+        self, text: str, by: Principal = KIM, answers: str = "", there: str = ""
+    ) -> RuleReply | None:
+        to = Listener("Ada", ("Ada",), self._places, there=there, busy=False)
+        return await self.talk.reply(text, by, to, answers=answers)
 
     @property
     def held(self) -> list[str]:
@@ -149,6 +152,21 @@ async def test_who_insists_hears_which_rule_it_is_and_who_may_change_it(words: s
     assert await talk.say("go to the desk anyway") is None, "an order of its own"
     talk.talk.refused("Ada", ())
     assert await talk.say(words) is None
+
+
+@pytest.mark.parametrize("words", ["stay away from there", "Don't go there again", "never drive in there!"])
+async def test_there_is_where_it_was_sent_last_and_an_area_is_called_by_its_letter(words: str) -> None:
+    talk = Talk(MapObject("b", "Area B", 5.0, 0.0, "area", 1.0, 1.0))
+    assert "there" in getattr(await talk.say(words), "text", "I do not know where “there” is."), "nowhere yet"
+    asked = await talk.say(words, there="Area B")
+    assert asked is not None and "“area b”" in asked.text
+    await talk.say("yes", answers=asked.id)
+    for no in ("C's open again", "zone C is open again"):
+        assert await talk.say(no) is None
+    lifting = await talk.say("B's open again")
+    assert lifting is not None
+    await talk.say("yes", answers=lifting.id)
+    assert talk.held == []
 
 
 async def test_a_rule_that_was_agreed_to_is_not_lifted_without_a_yes() -> None:

@@ -204,6 +204,12 @@ def test_a_dont_that_is_about_nothing_the_robot_does_is_a_rule(text: str, doing:
     [
         ("Kim is awake now, you may go to the storeroom again", "storeroom"),
         ("ok the floor is dry, the storeroom is fine again", "storeroom"),
+        ("the storeroom's open again", "storeroom"),
+        ("they've opened the storeroom again", "storeroom"),
+        ("the storeroom isn't closed any more", "storeroom"),
+        ("the storeroom has been reopened", "storeroom"),
+        ("the storeroom is closed", ""),
+        ("they opened the storeroom", ""),
         ("the storeroom is open", ""),
         ("may you go into the storeroom?", ""),
         ("you must not go into the storeroom", ""),

@@ -97,6 +97,18 @@ def test_a_part_waits_for_a_yes_then_for_others_and_a_no_ends_it() -> None:
     assert told.states == ["queued", "undone"]
 
 
+def test_a_part_whose_yes_first_ends_what_went_before_is_not_over() -> None:
+    told = Follower()
+    told.book.on_proposal(PlanProposal(id="p", target="Kim", order="Kim", lines=("see Kim",)))
+    told.plan("Kim", state="idle", waits=())  # what it had to do before is given up
+    told.plan("Kim", step("Kim", "a desk", "running"))
+    assert told.states == ["queued", "running"]
+    told.plan("Ada", *ended("Ada", ["a door"]), state="idle")
+    assert not told.closed
+    told.plan("Kim", *ended("Kim", ["a desk"]), state="idle")
+    assert told.closed == ["All of “see all” is done."]
+
+
 def test_what_another_robot_takes_over_is_a_part_of_the_same_mission() -> None:
     told = Follower()
     told.plan("Kim", *ended("Kim", ["a desk"]), state="idle")

@@ -272,6 +272,37 @@ def test_who_meets_goes_to_the_place(say: str, parts: list[Part]) -> None:
 
 
 @pytest.mark.parametrize(
+    ("say", "work", "then"),
+    [
+        ("check all boxes between you and then meet at the gate", "check all boxes", "go to the gate"),
+        ("Check the boxes, one each, then wait at the dock", "Check the boxes", "wait at the dock"),
+        ("Split the boxes and check them. Then everybody goes to the dock", "check the boxes",
+         "go to the dock"),
+        ("Share the boxes, check each, and meet me at the gate when you're done", "check the boxes",
+         "go to the gate"),
+        ("Check all boxes between you. When you're done, all of you go to the dock", "Check all boxes",
+         "go to the dock"),
+        ("check the gate and the desk between you, then go back to the dock when you are all done",
+         "check the gate and the desk", "go back to the dock"),
+        ("check all boxes between you and look for keys", "check all boxes and look for keys", ""),
+        ("check all boxes between you, then check the gate", "check all boxes, then check the gate", ""),
+    ],
+)  # fmt: skip
+def test_where_all_are_behind_what_they_share_each_goes_itself(say: str, work: str, then: str) -> None:
+    wish = team_wish(say, ROBOTS, "Ada")
+    parts = [Part("all", work), *([Part("each", then, after=True)] if then else [])]
+    assert (wish.kind, list(wish.parts)) == ("share", parts) if wish and work else wish is None
+
+
+def test_who_is_let_go_does_what_was_said_before() -> None:
+    for say in ("let Kim go", "No, let Kim do that"):
+        wish = team_wish(say, ROBOTS, "Ada")
+        assert wish is not None and wish.parts == (Part("named", "", "Kim"),)
+        assert wish.parts[0].of_before
+    assert gathered("check the boxes together") == "check the boxes"
+
+
+@pytest.mark.parametrize(
     ("say", "turns", "parts"),
     [
         (

@@ -13,7 +13,7 @@ from parley.gate.assent import assent_of
 from parley.gate.book import RuleBook
 from parley.gate.rules import RuleKeeper
 from parley.gate.table import Effect, verdict
-from parley.gate.told import DraftRule, NotUnderstood, lifted_place, told_rule
+from parley.gate.told import DraftRule, NotUnderstood, lifted_place, named_place, told_rule
 from parley.gate.wording import rule_text
 from parley.latest import Latest
 from parley.messages.principal import Principal
@@ -51,6 +51,8 @@ _INSIST: Final = re.compile(
     r"(?:rules?|reeglit)\b"
 )
 _NO_NAME: Final = frozenset({"in", "inside", "there", "it", "again", "now", "back", "sinna", "sisse"})
+_KINDS: Final = frozenset({"area", "zone", "room", "bay"})
+"""Of "area B" people say "B"."""
 _NAMES_NOTHING: Final = frozenset({
     "yes", "no", "but", "ok", "okay", "well", "just", "please", "then", "still", "you", "i", "say",
     "said", "can", "may", "do", "go", "drive", "move", "try", "proceed", "carry", "on", "in",
@@ -78,6 +80,8 @@ class Listener:
     """Whether it has something to do: then "don't go there" is about that."""
     doing: str = ""
     """What that is in words, if it is known."""
+    there: str = ""
+    """The place that it was sent to last."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -302,8 +306,8 @@ class RuleTalk:
 
     def _told(self, text: str, to: Listener) -> DraftRule | NotUnderstood | None:
         return told_rule(
-            text, places=to.places, catalogue=to.catalogue, robots=to.robots, robot=to.robot, busy=to.busy,
-            doing=to.doing, zones=self._book.rules.rules, areas=self._areas(),
+            named_place(text, to.there), places=to.places, catalogue=to.catalogue, robots=to.robots,
+            robot=to.robot, busy=to.busy, doing=to.doing, zones=self._book.rules.rules, areas=self._areas(),
         )  # fmt: skip
 
     def _proposed(self, told: DraftRule, to: Listener) -> RuleReply:
@@ -335,9 +339,9 @@ class RuleTalk:
 
     def _closing(self, place: str, rules: Sequence[Rule]) -> list[Rule]:
         """Those of some rules by which a place is closed."""
-        words = set(re.findall(r"\w+", place))
-        closing = [rule for rule in rules if rule.kind == "keep_out"]
-        return [rule for rule in closing if words and words == set(re.findall(r"\w+", rule.name.casefold()))]
+        words = _words_of(place)
+        closing = [(rule, _words_of(rule.name)) for rule in rules if rule.kind == "keep_out"]
+        return [rule for rule, name in closing if words and words in (name, name - _KINDS)]
 
     def _freed(self, text: str, to: Listener) -> str:
         """The place that may be entered again; for "in" or "there" the one refused last, or closed."""
@@ -417,6 +421,10 @@ def left_over_rule(rule: Rule) -> str:
         "I was started anew before you answered, so this is no rule: {rule} Tell me again if it should be.",
         rule=rule_text(rule),
     )
+
+
+def _words_of(text: str) -> set[str]:
+    return set(re.findall(r"\w+", text.casefold()))
 
 
 def _may(by: Principal) -> bool:

@@ -17,7 +17,7 @@ from parley.messages.status import ActionInfo
 from parley.sentences import sentence
 from parley.world.object_map import MapArea, MapObject
 
-__all__ = ["DraftRule", "NotUnderstood", "lifted_place", "told_rule"]
+__all__ = ["DraftRule", "NotUnderstood", "keeps_away", "lifted_place", "named_place", "told_rule"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -211,12 +211,41 @@ _LIFTED: Final = (
         r"available|"
         r"yours)(?: again| now| to enter| for you)+"
     ),
+    re.compile(
+        r"(?P<place>.+?) (?:(?:(?:is|are) (?:no longer|not|never)|isn't|aren't) (?:closed(?: off)?|"
+        r"off[- ]limits|forbidden|out of bounds)|"
+        r"(?:(?:was|were|has|have)(?: been)? )?(?:re-?opened|opened again))"
+        r"(?: any ?more| any longer| again| now)*"
+    ),
+    re.compile(
+        r"(?:they|we|i|somebody|someone)(?:'ve| have| has)? (?:re-?opened|opened(?= .+ again))(?: up)? "
+        r"(?P<place>.+?)(?: again| now)*"
+    ),
 )
+_IS: Final = re.compile(r"(?<=\w)'s (?=(?:\w+ )*(?:again|now|longer|any ?more)$)")
+_THERE: Final = re.compile(
+    r"\b(?:(?P<verb>go|drive|come|move)|(?P<off>out of|away from|clear of|off|near|into|in)) there\b",
+    re.IGNORECASE,
+)
+
+
+def keeps_away(text: str) -> bool:
+    """Whether words keep a robot from "there": of one that goes nowhere that is no word of stopping."""
+    said = text.replace("’", "'").casefold().removeprefix("please ")
+    return re.match(r"(?:stay|keep|don't|do not)\b", said) is not None and _THERE.search(said) is not None
+
+
+def named_place(text: str, place: str) -> str:
+    """Words in which "there" is called by its name."""
+    found = _THERE.search(text) if place else None
+    if found is None:
+        return text
+    return f"{text[: found.start()]}{found['off'] or found['verb'] + ' to'} {place}{text[found.end() :]}"
 
 
 def lifted_place(text: str) -> str:
     """The place that a person says a robot may go to again; empty if they say nothing of the kind."""
-    said = re.sub(r"\s+", " ", text.replace("’", "'").casefold()).strip(" .!")
+    said = _IS.sub(" is ", re.sub(r"\s+", " ", text.replace("’", "'").casefold()).strip(" .!"))
     parts = [part.strip() for part in re.split(r"[,.;]|\band\b|\bso\b|\bnow\b(?= you)", said) if part.strip()]
     for part in reversed(parts if not said.endswith("?") else []):
         for form in _LIFTED:

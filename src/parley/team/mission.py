@@ -230,9 +230,13 @@ class MissionBook:
 
     def on_update(self, update: PlanUpdate) -> None:
         """The plan of a robot changed."""
-        for part in self._parts():
-            if part.info.robot == update.target and (part.info.state not in OVER or part.seen):
-                self._take(part, update)
+        begun = {step.order for step in update.steps}  # a yes may end what went before it, and then begin
+        for mission in self._missions.values():
+            for part in mission.parts:
+                goes_on = part.info.state not in OVER or part.seen
+                anew = part.info.order in begun and not mission.info.closing
+                if part.info.robot == update.target and (goes_on or anew):
+                    self._take(part, update)
         self._look()
 
     def on_presence(self, robot: str, *, there: bool) -> None:

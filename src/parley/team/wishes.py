@@ -72,6 +72,11 @@ class Part:
     alike: str = ""
     """What the words may mean if nobody understands them: the same as others do."""
 
+    @property
+    def of_before(self) -> bool:
+        """Whether it is what was said before, or is at work already."""
+        return not (self.order or self.alike or self.home or self.of or self.stays)
+
 
 @dataclass(frozen=True, slots=True)
 class TeamWish:
@@ -92,8 +97,8 @@ class TeamWish:
         "alone",
     ]
     parts: tuple[Part, ...] = ()
-    """For `share` one, of all; for `swap` those that are named; for `bar` where each of them shall not go; of
-    several robots, for `about`, what each is asked."""
+    """For `share` one, of all, and perhaps where each goes behind it; for `swap` those that are named; for
+    `bar` where each of them shall not go; of several robots, for `about`, what each is asked."""
     about: str = ""
     """For `nearest` the place, for `about` the question as that robot would be asked, for `progress` what was
     asked of, if not all of it, for `judged` words that judge nothing."""
@@ -469,6 +474,22 @@ class _Words:
 
     def share(self, text: str) -> TeamWish | None:
         """Work that all do together, each a part."""
+        return self._ended(text) or self._divided(text)
+
+    def _ended(self, text: str) -> TeamWish | None:
+        """Such work, and where all of them are behind it: "... between you, then meet at the gate"."""
+        text = re.sub(rf",? {self.of('through_all')}$", "", text, flags=re.IGNORECASE)
+        lead = rf"(?:{self.of('then')},? )?(?:{self.of('through_all')},? )?"
+        them = rf"(?:(?:{self.of('all')}|{self.of('each')}|you),? (?:{self.of('modal')} )*)?"
+        gaps = rf"(?:[,;.:!]+(?: and)?|(?<=\w) and) {lead}{them}"
+        for gap in [*re.finditer(gaps, text, re.IGNORECASE)][-_CUTS:]:
+            head = self._divided(text[: gap.start()])
+            last = self._part("each", "", text[gap.end() :], after=True, known=()) if head else None
+            if head and last and not head.bare and (last.home or _goes(last.order)):
+                return replace(head, parts=(*head.parts, replace(last, without=head.parts[0].without)))
+        return None
+
+    def _divided(self, text: str) -> TeamWish | None:
         between, split, that = self.of("between"), self.of("split"), self.of("that")
         if self._match(rf"{split} {that}(?: up)?(?: {between})?", text):
             return _shared("")
@@ -476,7 +497,7 @@ class _Words:
             what, order = found["what"], found["order"]
             if order is None:
                 return TeamWish("share", (Part("all", what),), bare=True)
-            return _shared(re.sub(r"\b(?:them|those|each(?: of them)?|it)\b", what, order))
+            return _shared(re.sub(rf"\b{_THEM}\b", what, order))
         if found := self._match(
             rf"(?P<order>.+?),?(?: and)?(?: (?:{split}|sharing|splitting|dividing))?(?: {that})?(?: up| out)?"
             rf" {between}",
@@ -508,6 +529,8 @@ class _Words:
     def _at_last(self, text: str) -> TeamWish | None:
         """Work of which it is said behind it, or behind a part of it, that it is to be shared."""
         between, split, that = self.of("between"), self.of("split"), self.of("that")
+        if found := self._match(rf"{split} (?P<what>.+?)(?: up)?,?(?: and)? (?P<verb>\w+) {_THEM}", text):
+            return _shared(f"{found['verb']} {found['what']}") if _acts(found["verb"]) else None
         found = self._match(rf"(?P<order>.+?)(?:,? and|[,;.:]) {split} {that}(?: up| out)?", text)
         found = found or self._match(rf"(?P<order>.+?) {between}(?P<more>,? and .+)", text)
         if found is None or not _acts(found["order"]):
@@ -675,6 +698,7 @@ class _Words:
 
     def _handed(self, robot: str, order: str) -> TeamWish | None:
         """What one robot is to do, whoever hears it."""
+        order = "do that" if order.lower() == "go" else order
         own = self._part("named", robot, order, after=False, known=())
         return TeamWish("parts", (own,)) if own is not None else None
 
@@ -826,7 +850,8 @@ class _Words:
 def gathered(message: str) -> str:
     """Where all that hear a message shall come together, as it is said to one of them: "go to the gate"."""
     words = _Words(("you",))
-    gone = words.gone(words.begun(_plain(message)))
+    begun = re.sub(r",? together$", "", words.begun(_plain(message)), flags=re.IGNORECASE)
+    gone = words.gone(begun)
     return gone if gone != words.begun(_plain(message)) else message
 
 
@@ -841,6 +866,9 @@ _OF_ALL: Final = {
 _Piece = tuple[Who, str, str, bool, str]
 """A part as said: who, in which words, what to do, whether it comes after another one, and after whose."""
 _NAME_WORDS: Final = 3
+_THEM: Final = r"(?:them|those|each(?: of them)?|it)"
+_CUTS: Final = 4
+"""So many of the last pieces of a sentence may say where all are behind their work."""
 _ALONE: Final = ("charge", "recharge")
 """Whole orders: nothing has to be said of where."""
 _THE: Final = ("the", "a", "an", "this", "that", "some")
@@ -881,6 +909,12 @@ def _acts(order: str) -> bool:
     """Whether words begin with what one can do."""
     first = order.split(" ")[0].lower()
     return (first,) in lexicon().verbs and first not in lexicon().classes["being"]
+
+
+def _goes(order: str) -> bool:
+    """Whether words only say where one is to be."""
+    frames = lexicon().verbs.get((order.split(" ")[0].lower(),), frozenset())
+    return not frames.isdisjoint({"GO", "WAIT"}) and " and " not in order
 
 
 def _opened(order: str) -> str:

@@ -17,6 +17,7 @@ from parley.messages import topics
 from parley.messages.chat import ChatFeedback, ChatInput
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.status import PlanRuling
+from parley.team.sharing import place_of
 
 __all__ = ["AboutRules"]
 
@@ -95,6 +96,7 @@ class AboutRules:
     def _listener(self, target: str) -> Listener:
         status, offered = self._presence.get(target), self._offered.newest(target)
         waits = "; ".join(offered.lines) if offered is not None else ""
+        last = self._known.log(target).newest_order
         return Listener(
             target,
             self._presence.names(),
@@ -102,6 +104,7 @@ class AboutRules:
             status.catalogue if status else (),
             busy=self._known.state(target) != "idle",
             doing=self._known.doing(target) or waits,
+            there=place_of(last.calls) if last is not None else "",
         )
 
     def _reply(self, target: str, said: ChatInput, reply: RuleReply, reply_to: str = "") -> None:

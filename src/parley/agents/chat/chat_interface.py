@@ -38,6 +38,7 @@ from parley.gate.control import Control, control_of
 from parley.gate.rule_talk import RuleTalk
 from parley.gate.stop_words import calls_to_stop, is_no, only_takes_back, opens_with_no
 from parley.gate.table import Effect, verdict
+from parley.gate.told import keeps_away
 from parley.language.base import Language
 from parley.memory.missions import MissionStore
 from parley.messages import topics
@@ -231,7 +232,7 @@ class ChatInterface(Node):
         if problem := texts.unreadable(said.message, bare=bool(said.images)):
             self._say(said.targets, problem, "error", said.id)
             return
-        control = control_of(said.message, self._presence.names())
+        control = self._control_in(said)
         if control not in HALTING and verdict(said.who, Effect.SPEAK) != "allow":
             self._only_stops(said)
             return
@@ -282,6 +283,13 @@ class ChatInterface(Node):
                 hear.append((target, question))
         self._hear_all(hear, corrected, said)
         self._questions.on_input(said)
+
+    def _control_in(self, said: ChatInput) -> Control | None:
+        """What a whole message means at once; "stay away from there" says so only to whoever is under way."""
+        control = control_of(said.message, self._presence.names())
+        if control == "stop" and keeps_away(said.message) and not any(map(self._is_under_way, said.targets)):
+            return None
+        return control
 
     def _turns(self, said: ChatInput, control: Control | None) -> bool:
         """Whether there is an order behind words of stopping, which is taken up while all stand then."""
@@ -355,7 +363,10 @@ class ChatInterface(Node):
         own = self._offered.decided(target, said, names)
         asked_for_others = self._offered.newest(target) is None and self._offered.is_asked(target)
         if own is not None:
-            self._controls.hand_on(target, own, said)
+            if not self._controls.hand_on(
+                target, own, said
+            ):  # it asks once more, and so the others wait, too
+                return True
         elif not asked_for_others:
             return False
         mates = [

@@ -194,14 +194,15 @@ class Controls:
         ):
             self.drop_part(part, said)
 
-    def hand_on(self, target: str, decision: PlanDecision, said: ChatInput) -> None:
-        """Hand a yes or no on, if the question about the plan is what the robot said last; else ask again."""
+    def hand_on(self, target: str, decision: PlanDecision, said: ChatInput) -> bool:
+        """Whether a yes or no is handed on: if that was asked last; else the robot asks again."""
         offered = self._offered.newest(target)
         if decision.decision == "reject" or offered is None or self._offered.is_asked(target):
             self._node.publish(topics.PLAN_DECISION, decision)
-        else:
-            text = together(wish_of(offered.lines, offered.why), SHALL_I)
-            self._answering.say((target,), text, "response", said.id)
+            return True
+        text = together(wish_of(offered.lines, offered.why), SHALL_I)
+        self._answering.say((target,), text, "response", said.id)
+        return False
 
     def tells_apart(self, said: ChatInput, control: Control | None) -> bool:
         """Whether some robots were told to stand or to go on, and others not; that is done then."""

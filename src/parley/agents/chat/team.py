@@ -14,7 +14,7 @@ from parley.agents.planner.flow import pending_calls
 from parley.agents.presence import Presence
 from parley.gate.evidence import speaks_of_change
 from parley.gate.orders import UNSURE_OF_ALL
-from parley.gate.stop_words import calls_to_stop
+from parley.gate.stop_words import calls_to_stop, opens_with_no
 from parley.language.base import Language, Situation
 from parley.language.dialogue.state import Order
 from parley.latest import Latest
@@ -43,6 +43,7 @@ TELL_EACH: Final = sentence("I cannot tell what of that can be done apart. Pleas
 WHO_DOES: Final = sentence("I cannot tell which of us is to do what. Please tell each of us its part.")
 JUDGED: Final = sentence("We can wait until that is done, but not judge what is found. Shall we do it so?")
 JUDGE_YOURSELF: Final = "We cannot judge that for each other. Say “{words}” once it is so."
+WAITS: Final = "{robot} is waiting for somebody, so it gets no part."
 TAKES_OVER: Final = "Let {other} take over from {robot}"
 IN_FULL: Final = sentence("I do not know what you mean by that. Please say it in full.")
 STOPPED: Final = sentence("you told me to stop")
@@ -195,7 +196,7 @@ class TeamTalk:
         if wish.bare:
             return self._without_deed(wish)
         mission = await work.parts(wish, target)
-        if mission is not None and wish.anew:
+        if mission is not None and wish.anew and not mission.relieved:
             mission = self._afresh(mission, target)
         if mission is not None and wish.turns:
             mission = self._turned(mission, wish)
@@ -364,14 +365,24 @@ class TeamTalk:
         orders = (await self._situation(target, said.message, said)).dialogue.orders
         self._given_on[target] = _GivenOn(said.message, tuple(takers), orders[-1:])
 
+    async def given_to(self, target: str, said: ChatInput) -> tuple[str, ...]:
+        """Who got what was said to a robot last."""
+        given = self._given((await self._situation(target, said.message, said)).dialogue.orders, target)
+        return given.takers if given is not None else ()
+
+    def _given(self, orders: Sequence[Order], target: str) -> _GivenOn | None:
+        """What was said to a robot last, if that was others' to do."""
+        given = self._given_on.get(target)
+        own = given is None or target in given.takers or given.behind != (*orders[-1:],)
+        return None if own else given
+
     async def said_last(self, target: str, said: ChatInput) -> tuple[str, str]:
         """The words that "that" means, and the proposal of it that waits; or why they cannot be given on."""
         situation = await self._situation(target, said.message, said)
         proposal, orders = self._offered(target), situation.dialogue.orders
         if proposal is not None and proposal.words:
             return proposal.words, proposal.id
-        given = self._given_on.get(target)
-        if given is not None and given.behind == orders[-1:] and target not in given.takers:
+        if (given := self._given(orders, target)) is not None:
             return ("" if any(map(self.left, given.takers)) else given.words), ""
         if orders and not situation.queue:
             return orders[-1].words, ""
@@ -488,9 +499,9 @@ class _Work:
             if part.stays:
                 self._stay(self._of(part, {share.robot for share in self._shares}))
                 continue
-            of = part.of or (target if part.instead else "")
-            if of and not (part.instead and (self._team.offers(of) or not self._team.left(of))):
-                return await self._taken_over(part, of)
+            of = part.of or await self._whose(part, target)
+            if (told := await self._as_before(part, of, wish)) is not None:
+                return told
             if part.home:
                 return self._where_to(part, alone=len(wish.parts) == 1)
             words, stops = await self._words(part, of or target)
@@ -508,7 +519,7 @@ class _Work:
             if part.awaits:
                 self._wait_for(part.awaits, begun)
             elif part.after:
-                self._shares[begun:] = [replace(share, after=before) for share in new]
+                self._come_behind(begun, () if wish.kind == "share" else before)
             before = tuple(share.robot for share in new)
         if len({share.robot for share in self._shares}) < len(self._shares):
             return Mission(text=TELL_EACH)
@@ -555,6 +566,41 @@ class _Work:
             self._notes.append(sentence("{robot} has nothing left to do.", robot=robot))
         else:
             self._shares[begun:] = [replace(share, awaits=(robot, order)) for share in self._shares[begun:]]
+
+    async def _as_before(self, part: Part, of: str, wish: TeamWish) -> Mission | None:
+        """A part that is at work already, or waits: somebody else does the rest. None: it is no such part."""
+        if part.robot and part.of_before and not wish.turns and self._team.stands(part.robot):
+            return Mission(text=sentence(WAITS, robot=part.robot))
+        if of and not (part.instead and (self._team.offers(of) or not self._team.left(of))):
+            return await self._taken_over(part, of)
+        return None
+
+    async def _whose(self, part: Part, target: str) -> str:
+        """Who has now what a part is to do instead; empty: nobody, or it is no such part.
+
+        "Let Kim do that" said to one that is at something means that, and after a no what it gave to another.
+        """
+        named = part.of_before and part.robot not in ("", target)
+        if part.instead or (named and self._team.left(target) and not self._team.offers(target)):
+            return target
+        if not named or not opens_with_no(self._said.message):
+            return ""
+        given = await self._team.given_to(target, self._said)
+        takers = [name for name in given if name != part.robot and self._team.left(name)]
+        return takers[0] if len(takers) == 1 else ""
+
+    def _come_behind(self, begun: int, before: tuple[str, ...]) -> None:
+        """What was given out from `begun` on waits for the parts of others; one's own is done just before."""
+        earlier, later = self._shares[:begun], self._shares[begun:]
+        for share in later:
+            own = next((at for at, one in enumerate(earlier) if one.robot == share.robot), None)
+            if own is None or {*before} - {share.robot}:
+                earlier.append(replace(share, after=before))
+            else:
+                doubt, drops = earlier[own].needs_yes or share.needs_yes, earlier[own].drops or share.drops
+                calls = (*earlier[own].calls, *share.calls)
+                earlier[own] = replace(earlier[own], calls=calls, needs_yes=doubt, drops=drops)
+        self._shares = earlier
 
     async def _taken_over(self, part: Part, of: str) -> Mission:
         """One robot does what is left of another one's plan: the one that is named, or whom it suits best."""
@@ -634,7 +680,8 @@ class _Work:
             return Mission(text=answer.message_response, choices=answer.choices)
         first = next(iter(able.values()))
         splits = alike(first.tasks) and not is_in_turn(words)
-        if wish.kind == "share" and not splits and len(first.tasks) > 1:
+        shares = wish.kind == "share" and not part.after
+        if shares and not splits and len(first.tasks) > 1:
             return Mission(text=TELL_EACH)
         together = part.who in ("all", "rest") and wish.kind == "parts" and len(own) > 1 < len(first.tasks)
         fits = len(first.tasks) == len(own) == (part.count if part.who == "all" else len(own))
@@ -646,7 +693,7 @@ class _Work:
             ):  # "two of you check the areas" is not that both check all
                 return await self._allot([*first.tasks], first, able, part, one_each=False)
             return await self._allot([first.calls] * part.count, first, able, part, one_each=True)
-        if wish.kind == "share" or together:
+        if shares or together:
             tasks = list(first.tasks) if splits else [first.calls]
             return await self._allot(tasks, first, able, part, one_each=wish.one_each)
         self._each(part, own, able, read)
@@ -662,9 +709,7 @@ class _Work:
         """Everybody does all of a part."""
         for name in own:
             if part.who == "rest" and self._team.stands(name):
-                self._notes.append(
-                    sentence("{robot} is waiting for somebody, so it gets no part.", robot=name)
-                )
+                self._notes.append(sentence(WAITS, robot=name))
             elif name in able:
                 one = able[name]
                 self._shares.append(Share(name, one.calls, needs_yes=one.needs_yes, drops=one.drops))
@@ -694,7 +739,7 @@ class _Work:
         booked = {share.robot: share.calls for share in self._shares}
         free = [name for name in read if not self._team.stands(name)] or [*read]
         for name in read.keys() - {*free}:
-            self._notes.append(sentence("{robot} is waiting for somebody, so it gets no part.", robot=name))
+            self._notes.append(sentence(WAITS, robot=name))
         outlooks = await self._team.outlooks({name: self._members[name] for name in free}, tasks, booked)
         able = {
             name: [task in read[name].tasks or task == read[name].calls for task in tasks]

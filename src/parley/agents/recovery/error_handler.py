@@ -48,6 +48,7 @@ from parley.messages.ros import ChatRequest, ChatResponse
 from parley.messages.status import ActionInfo, ActorStatus, PlanProposal, PlanUpdate, StopCommand, StopReport
 from parley.messages.wire import decode, encode
 from parley.sentences import sentence
+from parley.team.wishes import turned_wish
 from parley.transport.base import Transport
 from parley.world.object_map import MapObject
 
@@ -216,19 +217,24 @@ class ErrorHandler(Node):
             repair = self._repairs.get(target)
             if repair is None or repair.question_id != question.id:
                 continue
-            if self._is_about_rules(said, target):
-                repair.question_id = ""
-                self._refer(repair, said)
-            elif target in self._latched:
-                self._say(target, _STOPPED, "response")
-            else:
-                repair.question_id = ""
-                self._mailboxes.post(
-                    target,
-                    lambda r=repair: self._attempt(r, said),  # type: ignore[misc]
-                )
+            self._take_answer(repair, said)
         if not answered and self._which.needed(said, self._questions.robots()):
             self._ask_which(said)
+
+    def _take_answer(self, repair: Repair, said: ChatInput) -> None:
+        """Somebody replies to the question of a repair, perhaps with something else."""
+        target = repair.failure.target
+        if self._is_for_others(said, target):
+            self._decline(repair)
+            self._refer(repair, said)
+        elif self._is_about_rules(said, target):
+            repair.question_id = ""
+            self._refer(repair, said)
+        elif target in self._latched:
+            self._say(target, _STOPPED, "response")
+        else:
+            repair.question_id = ""
+            self._mailboxes.post(target, lambda: self._attempt(repair, said))
 
     def _controlled(self, target: str, control: Control, words: str) -> None:
         """The chat interface acts on it and closes the question; what is still worked out moves nobody."""
@@ -418,6 +424,11 @@ class ErrorHandler(Node):
         """Whether a message tells, asks for or lifts a rule: that is no answer to a question of ours."""
         to = Listener(target, self._presence.names(), self._objects(target), self._catalogue(target))
         return self._rules is not None and self._rules.concerns(said.message, to)
+
+    def _is_for_others(self, said: ChatInput, target: str) -> bool:
+        """Whether there is an order behind words of stopping that is not for the robot that asks alone."""
+        wish = turned_wish(said.message, self._presence.ever(), (target,))
+        return wish is not None and any(part.robot != target for part in wish.parts)
 
     def _ask(self, repair: Repair, resolution: ChatAction) -> None:
         repair.attempts += 1

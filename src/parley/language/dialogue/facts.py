@@ -74,7 +74,7 @@ _HAPPENED: Final = re.compile(
     r"never (?:arrived|reached|came|turned|showed)|complaints?|alarm|(?:is|are) (?:waiting|expecting)|"
     r"(?:hasn't|haven't|has not|have not|isn't|aren't) (?:yet )?"
     r"(?:come|arrived|turned|reached|been|answer\w+|showed)|"
-    r"has come for|asked (?:for|whether|if)|open again|out of (?!order|bounds))\b"
+    r"has come for|asked (?:for|whether|if)|(?<!\b\w is )(?<!\b\w's )open again|out of (?!order|bounds))\b"
 )
 """What has just happened, or is amiss: somebody is to see to it, and nobody to remember it."""
 
