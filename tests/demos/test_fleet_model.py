@@ -91,3 +91,11 @@ async def test_what_a_model_understands_is_split_allotted_and_done_by_the_team(t
                 pose, goal = home.system.robots[robot].pose(), home.system.known.get(thing)
                 assert goal is not None
                 assert abs(pose.x_m - goal.x_m) + abs(pose.y_m - goal.y_m) < 3.0, robot
+
+            server.will(plan("I look, TIAGo minds the pump.", *areas[-3:-1], *visit("pump_1", "TIAGo")))
+            asked = len(server.requests)
+            home.observer.say("Spot have a look at area C while TIAGo minds the pump", "Spot")
+            await home.state("running", "TIAGo")  # it was called: nobody need be asked
+            await idle(home)
+            assert len(server.requests) == asked + 1
+            assert home.distance_m("pump_1", "TIAGo") < 1.6

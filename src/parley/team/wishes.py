@@ -95,13 +95,14 @@ class TeamWish:
         "judged",
         "help",
         "alone",
+        "stranger",
     ]
     parts: tuple[Part, ...] = ()
     """For `share` one, of all, and perhaps where each goes behind it; for `swap` those that are named; for
     `bar` where each of them shall not go; of several robots, for `about`, what each is asked."""
     about: str = ""
     """For `nearest` the place, for `about` the question as that robot would be asked, for `progress` what was
-    asked of, if not all of it, for `judged` words that judge nothing."""
+    asked of, if not all of it, for `judged` words that judge nothing, for `stranger` who is no robot here."""
     robot: str = ""
     """For `about`, empty: each of them is asked. For `why` who was chosen or was not, if one is named. For
     `drop` whose part is given up, for `help` whose work it is."""
@@ -368,6 +369,7 @@ class _Words:
         text = re.sub(
             rf"\b({self._names}),? you (?!two|three|both|all)(?=\w)", r"\1 ", text, flags=re.IGNORECASE
         )
+        text = _WANTED.sub(r"check \g<what>", text)
         if self._hearer and (met := self._match(self.of("joining"), text)):
             text = f"{self._hearer} and {met['some']} meet {met['where']}"
         told = rf"^{self._names},? (?:please )?(?=(?:tell|ask|let|have|get) {self._names}\b)"
@@ -479,6 +481,10 @@ class _Words:
     def _ended(self, text: str) -> TeamWish | None:
         """Such work, and where all of them are behind it: "... between you, then meet at the gate"."""
         text = re.sub(rf",? {self.of('through_all')}$", "", text, flags=re.IGNORECASE)
+        others = rf"(?:{self.of('rest')}|the (?:second|third|fourth|last)(?: one| robot)?)"
+        stays = self._match(rf"(?P<work>.+?)(?:[,;.]| and)+ {others} {self.of('staying')}", text)
+        if stays and (head := self._divided(stays["work"])) and head.one_each and not head.bare:
+            return replace(head, parts=(*head.parts, Part("rest", "", stays=True)))
         lead = rf"(?:{self.of('then')},? )?(?:{self.of('through_all')},? )?"
         them = rf"(?:(?:{self.of('all')}|{self.of('each')}|you),? (?:{self.of('modal')} )*)?"
         gaps = rf"(?:[,;.:!]+(?: and)?|(?<=\w) and) {lead}{them}"
@@ -560,7 +566,7 @@ class _Words:
     def _one_each(self, text: str) -> TeamWish | None:
         """Work of which nobody takes more than one."""
         takes = rf"{self.of('each')},? (?:takes?|gets?|does|do) one(?: of them)?"
-        each = rf"(?:one each|one apiece|one for each of you|{takes})"
+        each = rf"(?:one(?: robot)? each|one apiece|one(?: robot)? for each(?: of (?:you|them))?|{takes})"
         if found := self._match(rf"(?P<order>.+?),?(?: and)? {each}", text):
             return TeamWish("share", (Part("all", found["order"]),), one_each=True)
         takes = r"(?:takes?|picks?|chooses?|gets?) (?:one|an?|a different) (?P<what>\w+)(?: each)?"
@@ -619,9 +625,20 @@ class _Words:
         single = len(made) == 1 and not made[0].awaits and not alone
         if not made or (single and only & {"named", "rest"}) or (asks and "named" in only):
             return None
+        if (stranger := next(filter(None, (self._stranger(part.order) for part in made)), "")) != "":
+            return TeamWish("stranger", about=stranger)
         return (
             TeamWish("parts", tuple(self._together(made))) if not all(part.stays for part in made) else None
         )
+
+    def _stranger(self, order: str) -> str:
+        """Somebody who is no robot here, and has a part behind the words of one: "..., Rex waits there"."""
+        for found in re.finditer(_BESIDE, order):
+            verb = _in_base_form(found["verb"])
+            does = verb != found["verb"] and (verb,) in lexicon().verbs
+            if found["who"].lower() not in self._robots and (does or self._match(self.of("modal"), verb)):
+                return found["who"]
+        return ""
 
     def _bare(self, text: str, *, asks: bool) -> TeamWish | None:
         """Robots and places, but not what is to be done there: "Ada the gate, Kim the desk"."""
@@ -837,7 +854,8 @@ class _Words:
         order = self.gone(order)
         first = order.split(" ")[0].lower()
         verbs, being = lexicon().verbs, lexicon().classes["being"]
-        if known and part.who in ("named", "one") and (first,) not in verbs and first not in being:
+        nameless = (first,) not in verbs and first not in being and not _DOES.match(order)
+        if known and part.who in ("named", "one") and nameless:
             order = f"{_opened(known[-1].order)} {order}"  # "Ada checks the gate, Kim the desk"
             first = order.split(" ")[0].lower()
         acts = (first,) in verbs and first not in being
@@ -865,10 +883,20 @@ _OF_ALL: Final = {
 }  # fmt: skip
 _Piece = tuple[Who, str, str, bool, str]
 """A part as said: who, in which words, what to do, whether it comes after another one, and after whose."""
+_WANTED: Final = re.compile(
+    r"^(?:i|we)(?:'d| would)? (?:like|want|need) (?P<what>.+?) (?:to be )?"
+    r"(?:looked at|checked|inspected|searched|seen to)\b",
+    re.IGNORECASE,
+)
+_BESIDE: Final = r"[,;.] (?:and |but |while )?(?P<who>[A-Z][a-z]+),? (?P<verb>[a-z]+)\b"
 _NAME_WORDS: Final = 3
 _THEM: Final = r"(?:them|those|each(?: of them)?|it)"
 _CUTS: Final = 4
 """So many of the last pieces of a sentence may say where all are behind their work."""
+_DOES: Final = re.compile(
+    r"\w{3,}s (?:the|an?|my|our|your|this|that|over|on|at|up|for|to|with)\b", re.IGNORECASE
+)
+"""What somebody does, though it is no verb that we know: "minds the gate" is no thing that is taken."""
 _ALONE: Final = ("charge", "recharge")
 """Whole orders: nothing has to be said of where."""
 _THE: Final = ("the", "a", "an", "this", "that", "some")

@@ -210,6 +210,9 @@ class TeamTalk:
         """A question back about words that say too little, or what we cannot do; None for other words."""
         if wish.kind == "help":
             return self.offered_instead(wish.parts[0].robot, wish.robot)
+        if wish.kind == "stranger":
+            nobody = sentence("No robot here is called “{words}”.", words=wish.about)
+            return Mission(text=together(nobody, WHO_DOES))
         if wish.kind == "judged" and wish.bare:
             words = f"{wish.about[:1].upper()}{wish.about[1:]}"
             return Mission(text=sentence(JUDGE_YOURSELF, words=words), choices=(words,))
