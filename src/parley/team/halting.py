@@ -33,9 +33,15 @@ def halting(message: str, robots: Sequence[str], hearers: Sequence[str]) -> Halt
         robots: Who is there; a team has at least two.
         hearers: Whom it was said to.
     """
-    marks = _marks(message, robots) if len(robots) > 1 and not message.rstrip().endswith("?") else None
+    if len(robots) < 2 or message.rstrip().endswith("?"):
+        return None
+    marks, why = _marks(message, robots), _WHY.search(message)
+    if marks is None and why is not None:  # a reason may stand behind who is to stand, but not who is spared
+        marks = _marks(message[: why.start()], robots)
+        marks = marks if marks is not None and {kind for kind, _ in marks} <= _STANDS else None
     kinds = {kind for kind, _ in marks or ()}
-    if not marks or not (kinds & _APART or {*_DEEDS} <= kinds or {"all", "go"} <= kinds):
+    told = kinds & _APART or {*_DEEDS} <= kinds or {"all", "go"} <= kinds
+    if not marks or not (told or (kinds <= _STANDS and "stop" in kinds and _IT_STANDS.search(message))):
         return None
     said = _Said()
     for kind, name in marks:
@@ -49,6 +55,14 @@ _Mark = tuple[str, str]
 _DEEDS: Final = ("stop", "go")
 _APART: Final = frozenset({"but", "only", "rest", "no_other", "handing"})
 """With one of these some robots are told from others."""
+_STANDS: Final = frozenset({"who", "stop", "handing", "small", "end"})
+_IT_STANDS: Final = re.compile(r"\b(?:stays|stops|waits|halts|holds|rests|pauses|stands)\b", re.IGNORECASE)
+"""Said of somebody, and to nobody: "Ada stays put"."""
+_WHY: Final = re.compile(
+    r"\s*[,;.:–-]\s*(?:(?:because|since|as)\s+)?(?:it|he|she|there|that)(?:'s|\s+(?:is|has|was|will|may|might))\b"
+    r"|\s*,?\s+(?:because|since)\b",
+    re.IGNORECASE,
+)
 _ALL: Final = "*"
 _REST: Final = "others"
 _WHOM: Final = {"all": _ALL, "nobody": _ALL, "rest": _REST, "no_other": _REST, "hearer": "you"}

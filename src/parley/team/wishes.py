@@ -499,7 +499,8 @@ class _Words:
         between, split, that = self.of("between"), self.of("split"), self.of("that")
         if self._match(rf"{split} {that}(?: up)?(?: {between})?", text):
             return _shared("")
-        if found := self._match(rf"{split} (?P<what>.+?)(?: up)? {between}(?:,? and (?P<order>.+))?", text):
+        and_then = r"(?:(?:,? and|,) (?P<order>.+))?"
+        if found := self._match(rf"{split} (?P<what>.+?)(?: up| out)? {between}{and_then}", text):
             what, order = found["what"], found["order"]
             if order is None:
                 return TeamWish("share", (Part("all", what),), bare=True)
@@ -535,8 +536,10 @@ class _Words:
     def _at_last(self, text: str) -> TeamWish | None:
         """Work of which it is said behind it, or behind a part of it, that it is to be shared."""
         between, split, that = self.of("between"), self.of("split"), self.of("that")
-        if found := self._match(rf"{split} (?P<what>.+?)(?: up)?,?(?: and)? (?P<verb>\w+) {_THEM}", text):
-            return _shared(f"{found['verb']} {found['what']}") if _acts(found["verb"]) else None
+        them = rf"(?P<verb>\w+) {_THEM}(?P<more> for .+)?"
+        if found := self._match(rf"{split} (?P<what>.+?)(?: up| out)?,?(?: and)? {them}", text):
+            order = f"{found['verb']} {found['what']}{found['more'] or ''}"
+            return _shared(order) if _acts(order) else None
         found = self._match(rf"(?P<order>.+?)(?:,? and|[,;.:]) {split} {that}(?: up| out)?", text)
         found = found or self._match(rf"(?P<order>.+?) {between}(?P<more>,? and .+)", text)
         if found is None or not _acts(found["order"]):
