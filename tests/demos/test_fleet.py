@@ -435,6 +435,16 @@ async def test_a_yes_that_comes_late_is_asked_for_again_before_anybody_begins() 
             await home.done(name)
 
 
+async def test_who_is_said_to_stay_put_stands_whoever_hears_it_and_whatever_the_reason() -> None:
+    async with hall(speed=4.0) as home:
+        await told(home, "everybody go to the pump", *ROBOTS)
+        for name, words in (("TIAGo", "TIAGo stays put"), ("Spot", "let Spot wait, it is in the way")):
+            await home.state("running", name)
+            home.observer.say(words, "Leo")
+            await home.state("paused", name)
+        assert home.observer.state("Leo") == "running"
+
+
 async def test_behind_a_stop_that_answers_a_question_others_are_told_too() -> None:
     async with hall() as home:
         await home.say("look for the toolbox in Area B", "Spot")
@@ -546,6 +556,8 @@ async def test_what_is_no_work_those_who_are_stopped_answer_themselves() -> None
         await told(home, "emergency stop all", *ROBOTS)
         reply = await told(home, "thank you, that was good work", *ROBOTS)
         assert "No robot is left" not in reply.message
+        for asking in ("release the stop", "Please reset the emergency stop!"):
+            assert "by a press" in (await home.say(asking, "Leo")).message
 
 
 async def test_words_to_a_team_that_are_not_read_are_no_order_to_whoever_hears_them() -> None:

@@ -574,7 +574,8 @@ class _Words:
             return TeamWish("share", (Part("all", found["order"]),), one_each=True)
         takes = r"(?:takes?|picks?|chooses?|gets?) (?:one|an?|a different) (?P<what>\w+)(?: each)?"
         tells = r"(?:tells?|shows?) (?:me|us) what(?:'s| is| you| it| they| there).*"
-        then = rf"(?:(?P<verb>\w+) it|{tells}|(?:has|have) a look)"
+        sees = r"(?:sees?|checks?|looks?|finds? out) (?:if|whether|what|for) .+"
+        then = rf"(?:(?P<verb>\w+) it|{tells}|{sees}|(?:has|have) a look)"
         takes = rf"{self.of('each')},? {takes},? and {then}"
         if found := self._match(takes, text):
             order = f"{_in_base_form(found['verb'] or 'check')} every {found['what']}"

@@ -240,7 +240,7 @@ class ChatInterface(Node):
         if (
             self._controls.tells_apart(said, control)
             or self._turns(said, control)
-            or self._is_late(said, control)
+            or self._needs_none(said, control)
         ):
             return
         if control is None and said.type == "response" and not said.targets and self._questions.robots():
@@ -308,6 +308,19 @@ class ChatInterface(Node):
         self._mailboxes.post(hearers[0], self._correction(team, said, robots))
         self._questions.on_input(said)
         return True
+
+    def _needs_none(self, said: ChatInput, control: Control | None) -> bool:
+        """Whether nothing is to be done about a message, and that is told."""
+        stopped = [
+            name
+            for target in said.targets
+            if (name := self._presence.resolve(target)) and (status := self._presence.get(name))
+            and status.state == "stopped"
+        ]  # fmt: skip
+        if stopped and texts.RELEASING.fullmatch(said.message):
+            self._say(tuple(stopped), texts.RELEASED_BY_PRESS, "response", said.id)
+            return True
+        return self._is_late(said, control)
 
     def _is_late(self, said: ChatInput, control: Control | None) -> bool:
         """Whether a message answers a question that is settled, and is no stop; that is told."""

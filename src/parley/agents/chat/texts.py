@@ -20,6 +20,8 @@ __all__ = [
     "NOTHING_TO_RESUME",
     "NOT_DONE",
     "ONLY_LOOKS",
+    "RELEASED_BY_PRESS",
+    "RELEASING",
     "REST_LEFT",
     "SAID_AGAIN",
     "SAY_CARRY_ON",
@@ -53,6 +55,13 @@ STILL_ASKED: Final = sentence("What I asked about still waits for your yes.")
 """Added when a robot goes on with its plan while something else waits."""
 
 CANNOT: Final = "I worked out a plan that I cannot carry out, so I did nothing. Please say it another way."
+RELEASED_BY_PRESS: Final = "A stop is released by a press, not by words. Then say “carry on”."
+RELEASING: Final = re.compile(
+    r"\W*(?:please |can you |could you )*(?:release|reset|lift|undo|unlock|end|clear)"
+    r"(?: the| your| that| this)?(?: emergency)? stop(?: please| now| again)*\W*",
+    re.IGNORECASE,
+)
+"""Asking for what only a press does."""
 CONTROL_REPLIES: Final[dict[Control, str]] = {
     "stop": "I have stopped. Say “carry on” when I should go on.",
     "start": "I am going on.",
