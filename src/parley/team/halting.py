@@ -56,7 +56,11 @@ _DEEDS: Final = ("stop", "go")
 _APART: Final = frozenset({"but", "only", "rest", "no_other", "handing"})
 """With one of these some robots are told from others."""
 _STANDS: Final = frozenset({"who", "stop", "handing", "small", "end"})
-_IT_STANDS: Final = re.compile(r"\b(?:stays|stops|waits|halts|holds|rests|pauses|stands)\b", re.IGNORECASE)
+_IT_STANDS: Final = re.compile(
+    r"\b(?:stays|stops|waits|halts|holds|rests|pauses|stands)\b|"
+    r"\b(?:can|should|must|may|shall) (?:stay|wait|rest)\b",
+    re.IGNORECASE,
+)
 """Said of somebody, and to nobody: "Ada stays put"."""
 _WHY: Final = re.compile(
     r"\s*[,;.:–-]\s*(?:(?:because|since|as)\s+)?(?:it|he|she|there|that)(?:'s|\s+(?:is|has|was|will|may|might))\b"

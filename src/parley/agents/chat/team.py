@@ -450,6 +450,14 @@ def can_do(status: ActorStatus, tasks: Sequence[Task]) -> bool:
     return all(call.name in known for task in tasks for call in task)
 
 
+def _why_not(tasks: Sequence[Task], takers: Mapping[str, Outlook]) -> Sentence:
+    """Why work is not given out: a place that nobody gets to is named."""
+    for at, task in enumerate(tasks):
+        if takers and place_of(task) and all(one.ways_m[at] == float("inf") for one in takers.values()):
+            return sentence("None of us can get to “{place}”.", place=place_of(task))
+    return sentence("We cannot do all of that.")
+
+
 def _how_to_share(part: Part, words: str, robots: Sequence[str]) -> Mission:
     """Ask whether several things are to be shared, or done by everybody."""
     text = sentence("Shall we share that, or shall each of us do all of it?")
@@ -583,8 +591,9 @@ class _Work:
 
         "Let Kim do that" said to one that is at something means that, and after a no what it gave to another.
         """
-        named = part.of_before and part.robot not in ("", target)
-        if part.instead or (named and self._team.left(target) and not self._team.offers(target)):
+        named = part.of_before and part.robot != ""
+        other = named and part.robot != target
+        if part.instead or (other and self._team.left(target) and not self._team.offers(target)):
             return target
         if not named or not opens_with_no(self._said.message):
             return ""
@@ -754,8 +763,7 @@ class _Work:
             shared(tasks, takers, able, self._batteries, one_each=one_each, most=most) if takers else None
         )
         if routes is None:
-            text = sentence("We cannot do all of that.")
-            return Mission(text=text)
+            return Mission(text=_why_not(tasks, takers))
         for name, route in routes.items():
             reason = why(name, route[0], tasks.index(route[0]), outlooks, able, self._batteries)
             if part.fullest and len(takers) < len(outlooks):
