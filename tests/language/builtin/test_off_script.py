@@ -232,6 +232,25 @@ def test_all_that_is_wanted_is_done_at_each_and_as_often_as_was_said(said: str, 
     assert " ".join(deed.frame for deed in made.deeds if deed.frame in ("LOOK", "PHOTO")) == done
 
 
+@pytest.mark.parametrize("said", ["Robin should check bay A", "Robin to check bay A"])
+def test_what_somebody_else_should_do_is_asked_about(said: str) -> None:
+    made = ENGINE.decide(situation(said, objects=PLACES, catalogue=SHIPPED))
+    assert isinstance(made, Ask) and made.called == "Robin"
+
+
+@pytest.mark.parametrize(
+    ("said", "fact"),
+    [
+        ("Anna will bring the keys to bay A", "Anna will bring the keys to bay A"),
+        ("I will put the keys in bay A", "I will put the keys in bay A"),
+        ("Anna brought the keys to bay A", "the keys are at bay A"),
+    ],
+)
+def test_what_is_still_to_come_is_remembered_as_that(said: str, fact: str) -> None:
+    made = ENGINE.decide(situation(said, objects=PLACES, catalogue=SHIPPED))
+    assert isinstance(made, Remember) and made.told[0].text == fact
+
+
 def test_an_order_to_another_robot_takes_nothing_of_what_this_one_offered() -> None:
     offered = Dialogue(proposal=PlanProposal(id="7", target="Ada", why="It is not certain."))
     made = decided_shipped("Bob, go to bay A", robots=("Ada", "Bob"), dialogue=offered)

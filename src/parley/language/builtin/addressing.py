@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from rapidfuzz.distance import OSA
 
 from parley.language.base import Situation
-from parley.language.builtin.decision import Ask, Decision, Do
+from parley.language.builtin.decision import Ask, Decision, Do, Edit
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.tokens import Token
 from parley.language.dialogue.speaker import Again
@@ -21,6 +21,7 @@ _BEFORE = word_set("hey hello hi ok okay please so now well yes no and right oh 
 _MARKS = ([","], ["!"], [":"])
 _ENDS = frozenset({".", "?", "!", ";"})
 _ASKING = [[word, "you"] for word in ("can", "could", "would", "will")]
+_SHALL = frozenset({"should", "shall", "must", "to", "will"})
 _AFTER = frozenset({".", "?", "!", ",", "please"})
 _INITIALS = 2
 """Shorter ones are no names: "bays A, B, C"."""
@@ -103,6 +104,7 @@ def for_nobody(
     """
     names = {word for name in situation.robots for word in name.lower().split()}
     acts = isinstance(made, Do) or (isinstance(made, Ask) and made.offer)
+    acts = acts or (isinstance(made, Edit) and made.do is not None)
     if not acts or not names or names & {token.low for token in tokens}:
         return None
     if (found := _unknown_call(situation, tokens, lexicon)) is None:
@@ -139,9 +141,10 @@ def _unknown_call(situation: Situation, tokens: Sequence[Token], lexicon: Lexico
         apart = low[start + 1 : start + 2] in _MARKS
         follows = low[start + 1 + apart : start + 2 + apart]
         told = follows and follows[0] in lexicon.classes["predicates"]  # "Kim is in the yard"
+        should = bool(follows) and follows[0] in _SHALL and (*low[start + 2 : start + 3],) in verbs
         orders = follows and not told and (low[start + 1 : start + 3] in _ASKING or (follows[0],) in verbs)
-        if follows and (apart or orders) and unknown(start, apart=apart):
-            rest = text[: tokens[start].start] + text[tokens[start + 1 + apart].start :]
+        if follows and (apart or orders or should) and unknown(start, apart=apart):
+            rest = text[: tokens[start].start] + text[tokens[start + 1 + (apart or should)].start :]
             return tokens[start].text, rest
     end = next((at for at in range(len(low) - 1, 0, -1) if low[at] not in _AFTER), 0)
     if end > 1 and low[end - 1] == "," and unknown(end, apart=False):

@@ -50,6 +50,7 @@ def told_of(
         behind = thing is not None and thing.start > wish.start  # "I left the box there"
         left = wish.frame == "BELOC" and said in ("i", "we", "just") and behind and wish.start < 3
         moved = left or (wish.frame in ("PUT", "BRING") and wish.start > 0)
+        ahead = _AHEAD.search(message[: starts[wish.start]]) is not None or wish.verb.endswith("ing")
         if not (moved or wish.frame in ("BELOC", "GO")) or wish.act != "told":
             continue
         name = _name(thing, lexicon) if thing is not None else (said,)
@@ -63,7 +64,11 @@ def told_of(
         last = max(filler.end for filler in wish.fillers)
         text = _whole(message, start, starts[last] if last < len(starts) else len(message), lexicon)
         key = "_".join(re.findall(r"\w+", " ".join(name)))[:150]
-        if moved and (where := wish.one("G") or wish.one("L")) is not None:  # "I moved the box to the desk"
+        if ahead and wish.start > 0:  # "I will put the box on the desk" is not done yet
+            text = _SENTENCE.split(message[: starts[wish.start]])[-1] + message[starts[wish.start] :].rstrip(
+                ".! "
+            )
+        elif moved and (where := wish.one("G") or wish.one("L")) is not None:  # "I moved the box to the desk"
             be = "are" if name[-1].endswith("s") and not name[-1].endswith("ss") else "is"
             text = f"{thing.text} {be} {_TO.sub('at', where.text)}"
         if key and text:
@@ -87,6 +92,10 @@ def _moved(found: list[Told], wish: Wish, reading: Reading) -> list[Told]:
 
 
 _TO = re.compile(r"^(?:in|on)?to\b")
+_AHEAD = re.compile(
+    r"(?:\bwill|['’]ll|\b(?:going|about|plans?|wants?|has|have) to)\s+(?:\w+ly )?$", re.IGNORECASE
+)
+_SENTENCE = re.compile(r"[.;!?,]\s+|\b(?:that|and|but)\s+", re.IGNORECASE)
 _GONE = re.compile(r"n['’]t\b|\b(?:not|no longer|never|left)\b")
 _END = re.compile(r"[.,;:!?]|\b(?:and|but|so|because|or|then|please)\b|$", re.IGNORECASE)
 _LINKED = re.compile(r"that\s+", re.IGNORECASE)
