@@ -9,7 +9,8 @@ from parley.clock import WallClock
 from parley.memory.proposals import ProposalStore
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatInput
-from tests.agents.crew import crew, decide, drive, find, look, proposals
+from parley.messages.status import StopCommand
+from tests.agents.crew import KIM, Crew, crew, decide, drive, find, look, proposals
 
 
 async def left_repair(file: Path) -> str:
@@ -53,6 +54,46 @@ async def test_a_repair_of_a_plan_that_is_gone_is_dropped_and_said(tmp_path: Pat
             party.order(look("chair"))
             await party.until(lambda: proposals(party))
         assert [kept.proposal.id for kept in await store.waiting()] == [proposals(party)[0]["id"]]
+
+
+async def test_what_was_ordered_during_an_emergency_stop_waits_for_a_yes_after_a_restart(
+    tmp_path: Path,
+) -> None:
+    async with await ProposalStore.open(tmp_path / "proposals.db", WallClock()) as store:
+        async with crew("A", proposals=store) as party:
+            await stopped(party)
+            party.order(look("box"))
+            party.order(look("lid"))
+            await party.until(lambda: len(party.steps()) == 2)
+            await party.state("paused")
+            await party.settled()
+        async with crew("A", proposals=store) as party:
+            party.planner.offer_again()
+            await party.until(lambda: proposals(party))
+            (left,) = proposals(party)
+            assert left["lines"] == ["Look: what “box”", "Look: what “lid”"]
+            assert party.body.did == []
+            decide(party, id=left["id"], decision="approve")
+            await party.until(lambda: party.body.did == ["look box", "look lid"])
+
+
+async def test_what_began_after_an_emergency_stop_is_not_offered_again(tmp_path: Path) -> None:
+    async with await ProposalStore.open(tmp_path / "proposals.db", WallClock()) as store:
+        async with crew("A", proposals=store) as party:
+            await stopped(party)
+            party.order(look("box"))
+            await party.state("paused")
+            party.observer.publish(topics.STOP, StopCommand(command="reset", by=KIM))
+            await party.until(lambda: "reset" in [r.state for r in party.observer.stop_reports])
+            party.command("start")
+            await party.state("idle")
+        assert await store.waiting() == ()
+
+
+async def stopped(party: Crew) -> None:
+    """Somebody has pressed the button, and it holds."""
+    party.observer.publish(topics.STOP, StopCommand(by=KIM))
+    await party.until(lambda: "received" in [report.state for report in party.observer.stop_reports])
 
 
 async def test_a_robot_that_comes_later_is_offered_it_then(tmp_path: Path) -> None:

@@ -38,6 +38,7 @@ class Offers(Approvals):
     ) -> None:
         super().__init__(default, policies, log.drop)
         self._log, self._clock = log, clock
+        self._unbegun: dict[str, PlanProposal] = {}
 
     def propose(
         self,
@@ -59,6 +60,23 @@ class Offers(Approvals):
         self.put(proposal, repairs, bound)
         self._write(proposal, status, repairs)
         return proposal
+
+    def keep_unbegun(self, target: str, made: PlanProposal | None, status: ActorStatus | None) -> None:
+        """Write down what a robot keeps that no engine knows of yet, in the place of what was written so.
+
+        Args:
+            target: The robot.
+            made: It as a proposal, without an id; None: there is nothing like that any more.
+            status: The robot's last heartbeat.
+        """
+        before = self._unbegun.get(target)
+        if before is not None and made is not None and before.digest == made.digest:
+            return
+        if before is not None:
+            self._log.drop(self._unbegun.pop(target).id)
+        if made is not None:
+            self._unbegun[target] = made.model_copy(update={"id": uuid.uuid4().hex})
+            self._write(self._unbegun[target], status)
 
     def _write(self, proposal: PlanProposal, status: ActorStatus | None, repairs: Step | None = None) -> None:
         self._log.keep(

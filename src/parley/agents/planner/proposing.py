@@ -110,6 +110,16 @@ class Proposals:
             else:
                 approvals.drop(proposal.id)
                 self._plans.say(plan.target, orders.STEP_OVER, "info")
+        self._keep_unbegun(plan)
+
+    def _keep_unbegun(self, plan: TargetPlan) -> None:
+        """Write down what was kept for after an emergency stop: after a restart it waits for a yes."""
+        kept = plan.unbegun and not plan.graph_name
+        steps = [step for step in plan.pending if step.state == "queued"] if kept else []
+        words = steps[0].words if steps else ""
+        calls = [step.call for step in steps]
+        made = self._made(plan, ChatAction(words=words), calls, (), (), "") if calls else None
+        self._plans.approvals.keep_unbegun(plan.target, made, self._plans.presence.get(plan.target))
 
     def _renew(
         self, plan: TargetPlan, proposal: PlanProposal, bound: Sequence[Bound], why: str = ""

@@ -131,6 +131,7 @@ class Reports:
             return self._on_gone(go_on=command == "resume")
         if command == "start" and self._plan.run == "starting":
             self._abandon_start()
+            self._plan.unbegun = latched
             for step in self._plan.steps:
                 if step.state == "queued" and not latched:
                     step.state = "stopped"

@@ -63,6 +63,8 @@ class PlanState:
         """A graph whose end is awaited before anything new starts."""
         self.abandoned = ""
         """A graph whose start nobody answered; should it come to life after all, it is stopped."""
+        self.unbegun = False
+        """It was refused because of an emergency stop, so no engine keeps it."""
         self.next_id = 0
         self.nudged: set[str] = set()
         """The steps that a dry graph was last asked to continue with."""
