@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from parley.files import words_in
-from parley.team.wishes import Part, asked_by_name, gathered, is_unread, team_wish, turned_wish
+from parley.team.wish import Part
+from parley.team.wishes import asked_by_name, gathered, is_unread, team_wish, turned_wish
 
 ROBOTS = ("Ada", "Kim")
 SAYS = [(kind, say) for kind, says in words_in("parley.team", "wishes")["tests"].items() for say in says]

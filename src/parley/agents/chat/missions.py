@@ -29,7 +29,7 @@ from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput
 from parley.messages.status import ActionInfo, PlanDecision, PlanRuling, PlanUpdate
 from parley.messages.team import MissionInfo, MissionPart
 from parley.sentences import Sentence, sentence, together
-from parley.team.wishes import TeamWish
+from parley.team.wish import TeamWish
 
 __all__ = ["Missions"]
 

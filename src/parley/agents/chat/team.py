@@ -23,17 +23,8 @@ from parley.messages.status import ActorStatus, PlanProposal
 from parley.sentences import Sentence, listed, sentence, together
 from parley.team.outlook import Outlook, Survey, Task
 from parley.team.sharing import alike, in_turn, is_search, left_of, place_of, shared, tasks_of, why
-from parley.team.wishes import (
-    Part,
-    TeamWish,
-    asked_by_name,
-    gathered,
-    is_in_turn,
-    is_of_several,
-    is_unread,
-    team_wish,
-    turned_wish,
-)
+from parley.team.wish import Part, TeamWish, is_in_turn, is_of_several
+from parley.team.wishes import asked_by_name, gathered, is_unread, team_wish, turned_wish
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
