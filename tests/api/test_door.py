@@ -81,6 +81,14 @@ async def test_to_go_on_is_a_yes_to_what_a_robot_that_stands_has_just_asked() ->
         assert p.proposal("A") is None and p.plan("A").steps[2].label.startswith("Turn")
 
 
+async def test_who_is_told_to_stop_and_come_comes_when_it_hears_where_to() -> None:
+    async with parley(speed=1.0) as p:
+        await p.say("A", "turn around")
+        await p.say("A", "stop and come to me")
+        assert "green crate" in (await p.say("A", "I'm at the green crate")).message
+        assert any("green crate" in step.label for step in p.plan("A").steps)
+
+
 @pytest.mark.parametrize("by", [BOT, Principal()])
 async def test_a_program_that_nobody_knows_proposes_by_words_and_by_orders(by: Principal) -> None:
     async with parley(by) as p:

@@ -114,7 +114,8 @@ async def test_of_three_ways(message: str, drops: set[int], adds: list[str]) -> 
     "message",
     ["no, the gate is locked", "to the desk, no wait, the lamp",
      "the lamp is better lit", "skip the seventh one", "not the crate, the lamp",
-     "sorry, I meant the crate", "what about the gate?", "is the gate after the box?"],
+     "sorry, I meant the crate", "what about the gate?", "is the gate after the box?",
+     "wait, is the lamp on?", "no, where is the desk?", "hold on, was that the lamp?"],
 )  # fmt: skip
 async def test_in_doubt_the_plan_stays(message: str) -> None:
     answer = await ENGINE.interpret(given(message, "box", "gate"))

@@ -49,3 +49,12 @@ def test_what_the_robot_only_said_opens_nothing() -> None:
     assert "glad" not in str(made)
     asked = "I do not know where you are. Which place is it near?"
     assert isinstance(ENGINE.decide(after(Log(), "near the gate", asked)), Ask | Answer)
+
+
+def test_a_place_answers_what_was_ordered_behind_a_stop() -> None:
+    log = Log()
+    log.on_asked(Asked("come back to me", where="you"))
+    said = (Turn("operator", "stop and come back to me"), Turn("assistant", "I do not know where you are."))
+    told = situation("I'm at the desk", history=said, dialogue=log.state(None, None, 1))
+    made = ENGINE.decide(told)
+    assert isinstance(made, Do) and made.told and not made.notes

@@ -181,8 +181,14 @@ class Missions:
         elif mission.shares:
             await self._carry_out(target, said, mission, halts)
         else:
-            self._say((target,), mission.text, said, mission.choices, asks=texts.asks_back(mission.text))
+            self._answer(target, said, mission)
         return True
+
+    def _answer(self, target: str, said: ChatInput, mission: Mission) -> None:
+        """Say what comes of words of which nobody does anything yet; what is told next may be lacking."""
+        if mission.asked is not None:
+            self._known.log(mission.asked[0]).on_asked(mission.asked[1])
+        self._say((target,), mission.text, said, mission.choices, asks=texts.asks_back(mission.text))
 
     def turned(self, said: ChatInput) -> TeamWish | None:
         """What is said to be done behind words of stopping; None if whoever hears it reads that itself."""

@@ -16,7 +16,7 @@ from parley.gate.evidence import speaks_of_change
 from parley.gate.orders import UNSURE_OF_ALL
 from parley.gate.stop_words import calls_to_stop, opens_with_no
 from parley.language.base import Language, Situation
-from parley.language.dialogue.state import Order
+from parley.language.dialogue.state import Asked, Order
 from parley.latest import Latest
 from parley.messages.chat import ActionCall, ChatAction, ChatInput, SystemCommand
 from parley.messages.status import ActorStatus, PlanProposal
@@ -80,6 +80,8 @@ class Mission:
     """Robots that are at something and shall do nothing."""
     itself: tuple[str, str] | None = None
     """A robot, and words that only it can follow, as they change what it is at."""
+    asked: tuple[str, Asked] | None = None
+    """The one robot that would do it, and what it has to know first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -680,7 +682,9 @@ class _Work:
             if answer.system_cmd:  # what it says it would do is not done here
                 alone = len(own) == len(wish.parts) == 1
                 return Mission(text=TELL_EACH, itself=(next(iter(own)), words) if alone else None)
-            return Mission(text=answer.message_response, choices=answer.choices)
+            left = Asked(answer.left_open.about or words, answer.choices, answer.left_open.where)
+            asked = (next(iter(own)), left) if len(own) == 1 and (left.where or left.choices) else None
+            return Mission(text=answer.message_response, choices=answer.choices, asked=asked)
         first = next(iter(able.values()))
         splits = alike(first.tasks) and not is_in_turn(words)
         shares = wish.kind == "share" and not part.after

@@ -45,6 +45,10 @@ _TAKING_BACK: Final = re.compile(
     r"make (?:it|that)|never ?mind|on second thoughts?|changed? my mind|correction|better|hang on|hold on|"
     r"leave (?:it|that)|drop (?:it|that)|cancel (?:it|that)|change of plan)\b"
 )
+_ASKING: Final = re.compile(
+    r"(?:^|\W)(?:is|are|was|were|wh(?:at|ere|en|y|o|ich)|how|do|does|did|has|have)\b(?! about)[^.!,;]*\?\s*$",
+    re.IGNORECASE,
+)
 _FRONT: Final = re.compile(
     r"\b(?:first|before (?:all )?that|before you (?:do|go)|beforehand|on the way|on your way|before "
     r"(?:you |we )?(?:go(?:ing)? on|carry(?:ing)? on|mov(?:e|ing) on|continu(?:e|ing)|proceed(?:ing)?|"
@@ -195,6 +199,8 @@ def change_of(
     It `orders` where an order was read in it that can be carried out as it stands: its steps are put into
     the change by whoever read it.
     """
+    if _ASKING.search(situation.message) is not None:
+        return None  # "wait, where is the desk?"
     plan, names = visits(situation), named(tokens, situation.objects, lexicon)
     low = [token.low for token in tokens]
     text = " ".join(low)

@@ -96,6 +96,7 @@ _PLAINER: Final = (
     (_WAY, ""), (_REPORTING, ""), (_AT_LAST, " then"), (_NAMED_FIRST, r"\g<be> \g<what>"), (_ROUND, "go to"),
     (re.compile(r"(?<=\w), the one (?=(?:in|near|by|next to|on|at|behind|under|beside)\b)", re.I), " "),
     (re.compile(r"\b(?:can|could|would|will) you (?:please )?do me a favou?r(?: and|[,:])? ", re.I), ""),
+    (re.compile(r"\bnow,? (?=(?:show|give|get|send|bring|tell)\b)", re.I), ""),
     (re.compile(r"\btake a look(?= a?round\b)", re.I), "look"),
     (re.compile(r"\bback(?: to)? where you (?:started|began|were|came)\b(?: from| before)?", re.I), "back"),
 )  # fmt: skip

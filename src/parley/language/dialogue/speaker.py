@@ -83,11 +83,13 @@ def answered_place(situation: Situation, lexicon: Lexicon, again: Again) -> Deci
     if where is None:
         return None
     told = _told(_who(situation) if asked.where == "you" else asked.where, said["side"] or "near", where)
-    if last not in ("", asked.words) and _TOLD.match(whole):  # "where is Kim?", "she is at the desk"
+    if last and asked.words not in last and _TOLD.match(whole):  # "where is Kim?", "she is at the desk"
         return Remember((told,))
     made = again(asked.words, told=(MemoryEntry(name=told.name, data=told.text),))
     if not isinstance(made, Do | Ask) or made == again(asked.words):  # nothing came of it
         return None
+    if isinstance(made, Do):  # it was told just now
+        made = replace(made, notes=tuple(note for note in made.notes if note.source != told.name))
     sure = isinstance(made, Ask) or all(deed.frame != "FIND" for deed in made.deeds)  # else it shows
     return replace(made, told=(*([told] if sure else []), *made.told), about=asked.words)
 
