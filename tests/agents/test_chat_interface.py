@@ -699,6 +699,34 @@ async def test_a_reply_that_lacks_words_says_that_it_asks(room: Room, reply: Cha
     assert room.observer.said[-1].asks_back is asks
 
 
+async def test_a_reply_says_of_what_was_asked_before_that_it_may_be_answered_yet(room: Room) -> None:
+    asks = ChatAction(message_response="Which one?", choices=("left box", "right box"))
+    room.language.will("interpret", asks)
+    asked_in = room.observer.say("go to the box", "A")
+    await room.reply()
+    room.language.will("interpret", ChatAction(message_response="I see a door."))
+    room.observer.say("what do you see?", "A")
+    assert await room.reply(2) == "I see a door."
+    assert room.observer.said[-1].still_asks == asked_in
+    room.language.will("interpret", ChatAction(message_response="I look.", queue=(look(),)))
+    room.observer.say("left box", "A")
+    assert await room.reply(3) == "I look."
+    assert not room.observer.said[-1].still_asks
+
+
+async def test_never_mind_lets_go_also_of_what_was_asked_a_while_ago(room: Room) -> None:
+    asks = ChatAction(message_response="Which one?", choices=("left box", "right box"))
+    room.language.will("interpret", asks)
+    room.observer.say("go to the box", "A")
+    await room.reply()
+    room.language.will("interpret", ChatAction(message_response="I see a door."))
+    room.observer.say("what do you see?", "A")
+    await room.reply(2)
+    room.observer.say("never mind", "A")
+    assert await room.reply(3) == "All right, then I leave it."
+    assert not room.observer.said[-1].still_asks
+
+
 async def test_what_is_said_in_the_place_of_a_question_is_none(room: Room) -> None:
     room.language.will("interpret", ChatAction(message_response="What shall I do with Ruth?"))
     room.observer.say("no wait, Ruth shall stay where she is", "A")

@@ -197,6 +197,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "rules": [ZONE.model_dump(mode="json", by_alias=True)],
         "by_step": True,
         "asks": True,
+        "still_asks": "0",
         "images": [{"name": "box.jpg", "data": "AAAA"}],
     },
     chat.FlowIf: {"step": 2, "result": False},

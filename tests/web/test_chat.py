@@ -106,6 +106,27 @@ async def test_a_reply_that_asks_back_is_open_until_the_robot_is_told_more_and_w
         assert (entry["question"], entry["answer_id"]) == ("answered", "m4")
 
 
+async def test_what_a_reply_asks_stays_open_as_long_as_the_robot_says_so() -> None:
+    async with served("Ada") as rig:
+        page = await rig.page()
+        await rig.http.post("/api/chat", json=message("m1", "go to the box", "Ada"))
+        rig.robots.say("Which box?", reply_to="m1", choices=("red", "blue"))
+        await until_it_heard(page, 2)
+        key = page.of("chat")[1]["entry"]["id"]
+        await rig.http.post("/api/chat", json=message("m2", "what do you see?", "Ada"))
+        rig.robots.say("A door.", reply_to="m2", still_asks="m1")
+        asked = [("open", ""), ("answered", "m2"), ("open", "")]
+        await page.until(lambda: len([one for one in page.of("chat") if one["entry"]["id"] == key]) == 3)
+        told = [one["entry"] for one in page.of("chat") if one["entry"]["id"] == key]
+        assert [(one["question"], one["answer_id"]) for one in told] == asked
+        answer = await rig.http.post("/api/chat", json=message("m3", "red", "Ada", reply_to=key))
+        assert answer.status_code == 200
+        rig.robots.say("I go there.", reply_to="m3")
+        await page.until(lambda: page.of("chat")[-1]["entry"]["message"] == "I go there.")
+        told = [one["entry"] for one in page.of("chat") if one["entry"]["id"] == key]
+        assert told[-1]["question"] == "answered"
+
+
 async def test_a_reply_that_asks_back_is_settled_by_the_next_reply_to_what_was_said_elsewhere() -> None:
     async with served("Ada", "Bob") as rig:
         page = await rig.page()

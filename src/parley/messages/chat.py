@@ -106,6 +106,8 @@ class ChatFeedback(Payload):
     """Ours: what it speaks of, as the robot saw it."""
     asks: bool = False
     """Ours, of a `response`: an order lacks something, and whatever is said next may tell it."""
+    still_asks: str = ""
+    """Ours: `id` of an earlier message whose reply asked for more and may be answered yet."""
 
     @property
     def asks_back(self) -> bool:

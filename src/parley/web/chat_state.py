@@ -198,6 +198,8 @@ class ChatBook:
             self._asked_as[key] = feedback.id
         elif feedback.asks_back:
             self._left_open[key] = None
+        if feedback.still_asks:
+            self._ask_on(feedback)
 
     def on_draft(self, draft: ReplyDraft, *, unix_ms: int) -> None:
         """A reply grows; drafts come too late or not at all without doing harm."""
@@ -271,6 +273,15 @@ class ChatBook:
                 nameless = [key for key, asked in self._asked_as.items() if not asked]
                 for key in [key for key in nameless if _awaits(self.entries.get(key), robot)]:
                     self._settle(key)
+
+    def _ask_on(self, feedback: ChatFeedback) -> None:
+        """What was said next was no answer to what a reply asked: it may be answered yet."""
+        message = self._said_as.get(feedback.still_asks, feedback.still_asks)
+        for key, entry in tuple(self.entries.items()):
+            is_it = entry.reply_to == message and any(_awaits(entry, robot) for robot in feedback.targets)
+            if is_it and entry.type == "response" and entry.question == "answered":
+                self._left_open[key] = None
+                self._put(entry.model_copy(update={"question": "open", "answer_id": ""}))
 
     def _settle(self, key: str, *, answer_id: str = "") -> None:
         self._asked_as.pop(key, None)

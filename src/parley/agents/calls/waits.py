@@ -36,6 +36,7 @@ class Waits:
         self._after_s = after_s
         self._which: Latest[str, ChatFeedback] = Latest()
         """Replies that ask for what an order lacks, until the robot says or hears something else."""
+        self._asked_last: Latest[str, ChatFeedback] = Latest()
         self._proposals: Latest[str, list[PlanProposal]] = Latest()
         self._since: dict[str, float] = {}
         self._called: set[tuple[str, int]] = set()
@@ -46,7 +47,10 @@ class Waits:
         for robot in feedback.targets if feedback.type == "response" else ():
             self._which.pop(robot, None)
             if feedback.asks_back:
-                self._which[robot] = feedback
+                self._which[robot] = self._asked_last[robot] = feedback
+            last = self._asked_last.get(robot)
+            if last is not None and feedback.still_asks and last.reply_to == feedback.still_asks:
+                self._which[robot] = last
 
     def on_input(self, said: ChatInput) -> None:
         """Somebody is there."""

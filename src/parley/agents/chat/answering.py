@@ -84,6 +84,9 @@ class Answering:
                 "targets": tuple(targets),
                 "type": kind,
                 "reply_to": reply_to,
+                "still_asks": self._known.log(targets[0]).still_asks
+                if len(targets) == 1 and reply_to
+                else "",
             }
         )
         self._node.publish(topics.CHAT_FEEDBACK, feedback)
@@ -237,7 +240,7 @@ class Answering:
         if offers or left.where or order.alarm:
             about = Asked(left.about or said.message, understood.choices, left.where, order.alarm)
             for name in {target, *speakers}:  # it may be answered where it was said, too
-                self._known.log(name).on_asked(about)
+                self._known.log(name).on_asked(about, said.id if asks else "")
         self._known.log(target).lacks = asks
         self._known.log(target).on_left_open(said.message, left)
         self._node.publish(
@@ -249,6 +252,7 @@ class Answering:
                 sources=tuple(name for name in understood.sources if name in known | told),
                 choices=understood.choices if offers else (),
                 asks=asks,
+                still_asks="" if asks else self._known.log(speakers[0]).still_asks,
                 reply_to=said.id,
                 engine=understood.engine,
             ),

@@ -464,7 +464,7 @@ class ChatInterface(Node):
         """
         means_more = control in HALTING and not (control == "clear" and self._known.state(target) == "idle")
         log = self._known.log(target)
-        lacks = log.lacks and texts.is_never_mind(said.message)
+        lacks = bool(log.lacks or log.still_asks) and texts.is_never_mind(said.message)
         return (
             (log.has_just_asked or lacks)
             and not means_more

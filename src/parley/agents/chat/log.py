@@ -48,6 +48,8 @@ class Log:
     _refused: str = ""
     _asked: tuple[Asked, int] | None = None
     """With the number of turns for which it may still be answered."""
+    asked_in: str = ""
+    """Id of the message whose reply asked that and awaits words; empty: none does."""
     lacks: bool = False
     """Whether what was said last lacks something, and that was asked for."""
     _waiting: list[str] = field(default_factory=list)
@@ -63,10 +65,15 @@ class Log:
         self._waiting = [words for words in self._waiting if not due(order.words, [words])]
         self._refused, self._asked = "", None
 
-    def on_asked(self, asked: Asked) -> None:
-        """An order has to be asked about first."""
+    def on_asked(self, asked: Asked, message: str = "") -> None:
+        """An order has to be asked about first, in the reply to the message of that id."""
         alarm = asked.alarm or (self._asked is not None and self._asked[0].alarm)
-        self._asked = (replace(asked, alarm=alarm), _ASKED_TURNS)
+        self._asked, self.asked_in = (replace(asked, alarm=alarm), _ASKED_TURNS), message
+
+    @property
+    def still_asks(self) -> str:
+        """Id of the message whose reply asked what may be answered yet; empty if there is none."""
+        return self.asked_in if self._asked is not None else ""
 
     @property
     def newest_order(self) -> Order | None:
