@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from pytest import approx
+
 from parley.agents.audit_log import AuditLog
 from parley.agents.rules.rules import RuleNode
 from parley.clock import SimClock
@@ -18,6 +20,15 @@ from tests.sim.worlds import two_rooms
 from tests.web.rig import served
 
 DOOR = {"id": "door", "kind": "keep_out", "name": "north door", "rectangle": [2.6, 2.5, 3.4, 3.5]}
+
+
+POINT = ("position::x", "position::y")
+
+
+def to(*at: float) -> dict[str, Any]:
+    """A drive to a point."""
+    values = {name: {"pvf_type": "number", "pvf_value": value} for name, value in zip(POINT, at, strict=True)}
+    return {"drive": {"input_parameters": values}}
 
 
 async def test_rules_are_looked_at_changed_and_tried() -> None:
@@ -56,6 +67,12 @@ async def test_rules_are_looked_at_changed_and_tried() -> None:
             assert [item["code"] for item in inside["forbidden"]] == ["zone_entered"]
             assert (await tried(words=["green crate"]))["forbidden"] == []
             assert (await tried(words=["moon"]))["unknown"] == ["moon"]
+            drive = {"name": "drive", "effects": ["moves"], "inputs": dict.fromkeys(POINT, "number")}
+            rig.robots.appear("A", pose={"x": 1.0, "y": 1.0, "yaw": 0.0}, catalogue=[drive])
+            await rig.heard()
+            second = await tried(steps=[to(1.0, 3.0)], after=[to(5.0, 1.0)])
+            assert second["way"][0] == approx([5.0, 1.0], abs=0.1) and len(second["goals"]) == 1
+            assert (await tried(steps=[to(1.0, 3.0)]))["way"][0] == approx([1.0, 1.0], abs=0.1)
             wrong = await rig.http.put("/api/rules/door", json=DOOR | {"rectangle": [0, 0, 0, 1]})
             assert wrong.status_code == 422 and "rectangle" in json.dumps(wrong.json())
             assert (await rig.http.put("/api/rules/gate", json=DOOR)).status_code == 422

@@ -160,13 +160,13 @@ export const putRule = (rule: Rule, language: string) =>
 export const wordRule = (rule: Rule, language: string) =>
   request<RuleView>('POST', `rules/words?language=${part(language)}`, rule);
 export const dropRule = (id: string) => request<RulesAnswer>('DELETE', `rules/${part(id)}`);
-/** What would become of places in words, of a point, or of a plan. */
+/** What would become of places in words, of a point, or of a plan; `after`: what the robot does before that. */
 export interface Trial {
   words?: readonly string[];
   goal?: readonly [number, number];
   steps?: readonly ActionCall[];
+  after?: readonly ActionCall[];
 }
-
 export const tryRules = (robot: string, trial: Trial, language: string) =>
   request<RuleVerdict>('POST', 'rules/try', { robot, ...trial, language });
 

@@ -27,6 +27,8 @@ class RuleRequest(Payload):
     """For `try`: places in people's words, one after the other; `steps` and `goal` come before them."""
     steps: tuple[ActionCall, ...] = ()
     """For `try`: a plan."""
+    after: tuple[ActionCall, ...] = ()
+    """For `try`: what the robot does before that; of it only where it ends counts."""
     goal: Point | None = None
     """For `try`: a point to drive to."""
     language: SpokenLanguage = "en"

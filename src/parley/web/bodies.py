@@ -309,6 +309,8 @@ class RuleTryPost(WebModel):
 
     robot: Name
     steps: Annotated[tuple[ActionCall, ...], Field(max_length=200)] = ()
+    after: Annotated[tuple[ActionCall, ...], Field(max_length=200)] = ()
+    """What the robot does before that."""
     goal: tuple[float, float] | None = None
     """x, y on the map, metres."""
     words: Annotated[tuple[Annotated[str, StringConstraints(max_length=300)], ...], Field(max_length=20)] = ()

@@ -3,7 +3,7 @@ import userEvent from '@testing-library/user-event';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 
 import { network, type Answer, type Answers, type Asked } from '@/gallery/network';
-import { entry, mapInfo, mapView, robot, snapshot, step } from '@/live/samples';
+import { entry, mapInfo, mapView, plan, robot, snapshot, step } from '@/live/samples';
 import { useLive } from '@/live/store';
 import { useDrafts } from '@/state/drafts';
 import { useOutbox } from '@/state/outbox';
@@ -76,6 +76,18 @@ describe('the map', () => {
     const { container } = render(<MapPanel />);
     await vi.waitFor(() => expect(container.querySelector('.tried polyline')?.getAttribute('points')).toBe('1,2 3,1'));
     expect(container.querySelectorAll('.tried circle').length).toBe(2); // where each step ends
+  });
+
+  it('draws what waits for a yes from where the plan that runs will end', async () => {
+    const asked: Asked[] = [];
+    vi.stubGlobal('fetch', network({ map: { json: mapInfo }, 'rules/try': { json: verdict({ length_m: 2, way: [[1, 2], [3, 1]] }) } }, asked));
+    const proposal = { id: 'p', robot: 'Ada', message: '', changes: [], steps: [step({ id: 's', call: { name: 'second' } })], digest: 'd', why: '' };
+    const steps = [step({ id: 'a', state: 'skipped', call: { name: 'left out' } }), step({ id: 'b', state: 'finished', call: { name: 'find' } }), step({ id: 'c', state: 'running', call: { name: 'first' } })];
+    const runs = plan({ robot: 'Ada', state: 'running', steps });
+    useLive.getState().takeSnapshot(snapshot({ info: { ...snapshot().info, modules: { rules: true } }, robots: [robot({ name: 'Ada' })], views: [mapView], plans: [runs], proposals: [proposal] }));
+    render(<MapPanel />);
+    const tried = () => asked.filter(({ path }) => path === 'rules/try').map(({ body }) => body);
+    await vi.waitFor(() => expect(tried()).toMatchObject([{ after: [{ name: 'find' }, { name: 'first' }], steps: [{ name: 'second' }] }]));
   });
 
   it('answers which one is meant by a tap on it', async () => {

@@ -2,8 +2,9 @@ import { useEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { ApiError, tryRules, type Trial } from '@/live/api';
+import { OVER } from '@/live/lines';
 import { useWorld } from '@/live/store';
-import type { RuleVerdict } from '@/live/types';
+import type { RuleVerdict, StepView } from '@/live/types';
 
 import { nameOf, type Mark } from './marks';
 
@@ -59,8 +60,16 @@ export function useWayTo(robot: string, marked: Mark | null): Way {
   return useTrial(robot, marked && trials[marked.kind](marked));
 }
 
-/** The way that a robot proposes and waits for a yes to. */
+/** The way that a robot proposes and waits for a yes to: from where it is, or where what it does and what was proposed before that ends. */
 export function useProposedWay(robot: string): Way {
-  const steps = useWorld((world) => Object.values(world.proposals).findLast((one) => one.robot === robot)?.steps);
-  return useTrial(robot, steps && steps.length > 0 ? { steps: steps.map((step) => step.call ?? {}) } : null);
+  const plans = useWorld((world) => world.plans);
+  const proposals = useWorld((world) => world.proposals);
+  const [steps, ...before] = Object.values(proposals).filter((one) => one.robot === robot).map((one) => one.steps).toReversed();
+  const goesOn = Object.values(plans).filter((plan) => plan.robot === robot && plan.steps.some(({ state }) => !OVER.has(state)));
+  // What is found out already says where the steps behind it lead.
+  const ahead = goesOn.flatMap((plan) => plan.steps.filter(({ state }) => state !== 'skipped'));
+  const after = callsOf([...ahead, ...before.toReversed().flat()]);
+  return useTrial(robot, steps && steps.length > 0 ? { steps: callsOf(steps), after } : null);
 }
+
+const callsOf = (steps: readonly StepView[]) => steps.map((step) => step.call ?? {});

@@ -136,6 +136,9 @@ class RuleNode(Node):
         resolver = Resolver(
             self._ground, found.objects.places, found.occupancy, radius_m=radius_m, clock=self._clock
         )
+        # A plan begins where the one before it ends.
+        before = await resolver.resolve(request.after, catalogue, pose)
+        pose = next((end for step in reversed(before) if (end := _end(step)) is not None), pose)
         steps = list(await resolver.resolve(request.steps, catalogue, pose))
         if request.goal is not None:
             steps.append(PlannedStep(ActionCall(name="drive"), _DRIVE, Place(*request.goal)))
@@ -154,6 +157,12 @@ class RuleNode(Node):
             goals=tuple(_rounded(way[-1]) for way in judged.ways if way),
             unknown=tuple(words for words, place in places.items() if place is None),
         )
+
+
+def _end(step: PlannedStep) -> Pose2D | None:
+    """Where a robot stands after a step; None: where it stood before."""
+    moves = step.info is not None and "moves" in step.info.effects
+    return Pose2D(step.place.x, step.place.y) if moves and step.place is not None else None
 
 
 def _rounded(point: Point) -> Point:

@@ -75,6 +75,7 @@ async def try_rules(post: RuleTryPost, web: Web, who: Who) -> RuleVerdict:
         what="try",
         robot=name,
         steps=post.steps,
+        after=post.after,
         goal=post.goal,
         words=post.words,
         language=post.language,
