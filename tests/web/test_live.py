@@ -12,7 +12,7 @@ from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.map import MapView
 from parley.messages.ros import UmrfGraphFeedback
-from parley.messages.status import PoseInfo
+from parley.messages.status import PlanProposal, PlanUpdate, PoseInfo
 from parley.umrf.io import write_graph
 from parley.umrf.model import Graph, GraphState, Node
 from parley.web.config import WebConfig
@@ -197,6 +197,18 @@ async def test_a_server_that_starts_later_shows_the_plans_that_wait() -> None:
             await page.until(lambda: page.snapshots)
             await page.until(lambda: page.snapshots[0]["proposals"] or page.of("proposal"))
             assert late.backend.state.plans.proposals == rig.server.backend.state.plans.proposals
+
+
+async def test_what_asks_for_a_yes_does_so_until_that_is_decided() -> None:
+    async with served("Ada") as rig:
+        page = await rig.page()
+        rig.robots.tell(topics.PLAN, PlanProposal(id="p1", target="Ada", steps=(ActionCall(name="Look"),)))
+        await page.until(lambda: page.of("proposal"))
+        rig.robots.say("I would look. Shall I?")
+        await page.until(lambda: page.of("chat"))
+        rig.robots.tell(topics.PLAN, PlanUpdate(target="Ada", state="idle"))
+        await page.until(lambda: len(page.of("chat")) == 2)
+        assert [one["entry"]["asks_yes"] for one in page.of("chat")] == [True, False]
 
 
 async def test_a_graph_that_others_started_is_shown_whole() -> None:

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 
 import { entry } from './samples';
 
-import { answering, askedAnew, conversation, offering, openQuestions } from './questions';
+import { answering, askedAnew, conversation, offering, openQuestions, wishing } from './questions';
 
 const question = (id: string, seq: number, target: string, state: 'open' | 'answered' = 'open') =>
   entry({ id, seq, targets: [target], type: 'request', question: state });
@@ -61,6 +61,14 @@ describe('the conversation with several robots', () => {
     ];
     expect(conversation(chat, ['Ada']).map((one) => one.id)).toEqual(['Bob, stop', 'stopped', 'stop']);
   });
+});
+
+it('asks for a yes in the newest message of a robot that says so, as long as something waits', () => {
+  const wish = (id: string, robot: string) => entry({ id, targets: [robot], asks_yes: true });
+  const chat = [wish('old', 'Ada'), wish('new', 'Ada'), wish('other', 'Bob'), entry({ id: 'said', targets: ['Ada'] })];
+  expect([...wishing(chat, [{ robot: 'Ada' }])]).toEqual(['new']);
+  expect([...wishing(chat, [{ robot: 'Ada' }, { robot: 'Ada' }])]).toEqual(['new', 'old']);
+  expect([...wishing(chat, [])]).toEqual([]);
 });
 
 describe('offered answers', () => {

@@ -86,6 +86,19 @@ export function askedOf(chat: readonly ChatEntry[], helpless: ReadonlySet<string
   return chat.filter((entry) => entry.question === 'open' || (offers.has(entry.id) && waits(entry)));
 }
 
+/** Keys of the messages in which a robot asks for a yes to what waits for one: its newest, as many as wait. */
+export function wishing(chat: readonly ChatEntry[], proposals: readonly { robot: string }[]): ReadonlySet<string> {
+  const keys = new Set<string>();
+  const left = proposals.map(({ robot }) => robot);
+  for (const entry of chat.toReversed()) {
+    const at = entry.asks_yes ? left.findIndex((robot) => entry.targets.includes(robot)) : -1;
+    if (at < 0) continue;
+    keys.add(entry.id);
+    left.splice(at, 1);
+  }
+  return keys;
+}
+
 function stillOffers(entry: ChatEntry, spokenTo: ReadonlySet<string>): boolean {
   if (entry.question === '') return !entry.targets.some((robot) => spokenTo.has(robot));
   return entry.question === 'open';

@@ -6,17 +6,20 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Final
 
+from parley.agents.planner.asking import SHALL_I
 from parley.gate.control import control_of
 from parley.messages.attendance import Unattended
 from parley.messages.chat import ChatFeedback, ChatImage, ChatInput, ReplyDraft
 from parley.messages.principal import Principal
 from parley.messages.repeats import Repeats
+from parley.sentences import LANGUAGES, in_language
 from parley.web.models import ChatEntry
 
 __all__ = ["KEPT_ENTRIES", "ChatBook", "Composed", "KeepPictures"]
 
 KeepPictures = Callable[[str, Sequence[ChatImage]], tuple[str, ...]]
 
+_ASKS_YES: Final = tuple(in_language(SHALL_I, language) for language in LANGUAGES)
 KEPT_ENTRIES: Final = 500
 """How many of the newest entries are held ready; older ones are in the store."""
 
@@ -55,6 +58,8 @@ class ChatBook:
         """Key of an open question -> its id on the wire, perhaps empty."""
         self._left_open: dict[str, None] = {}
         """Keys of replies that ask for more: whatever is said next to the robot settles them."""
+        self._wishes = dict.fromkeys(key for key, entry in self.entries.items() if entry.asks_yes)
+        """Keys of messages that ask for a yes to what is proposed."""
         self._said_as: dict[str, str] = {}
         """Id of a message on the wire -> key of its entry, where they differ."""
         self._repeats = Repeats()
@@ -191,6 +196,7 @@ class ChatBook:
                 images=self._keep_pictures(key, feedback.images) if feedback.images else (),
                 engine=_short(feedback.engine),
                 question="open" if feedback.type == "request" or feedback.asks_back else "",
+                asks_yes=feedback.message.rstrip().endswith(_ASKS_YES),
                 reply_to=self._said_as.get(feedback.reply_to, feedback.reply_to),
             )
         )
@@ -198,6 +204,8 @@ class ChatBook:
             self._asked_as[key] = feedback.id
         elif feedback.asks_back:
             self._left_open[key] = None
+        if self.entries[key].asks_yes:
+            self._wishes[key] = None
         if feedback.still_asks:
             self._ask_on(feedback)
 
@@ -220,6 +228,12 @@ class ChatBook:
                 draft=True,
             )
         )
+
+    def on_decided(self, robot: str) -> None:
+        """Nothing that a robot proposed waits for a yes any more."""
+        for key in [key for key in self._wishes if _awaits(self.entries.get(key), robot)]:
+            del self._wishes[key]
+            self._put(self.entries[key].model_copy(update={"asks_yes": False}))
 
     def on_restart(self, robot: str) -> None:
         """A robot was started anew: it does not remember what it asked."""
@@ -311,6 +325,7 @@ class ChatBook:
                 if old.id not in self._asked_as and old.id not in self._left_open:
                     del self.entries[old.id]
             kept = set(self.entries)
+            self._wishes = {key: None for key in self._wishes if key in kept}
             self._said_as = {wire: key for wire, key in self._said_as.items() if key in kept}
         self._emit(entry)
 

@@ -132,6 +132,8 @@ class ChatEntry(WebModel):
     """Of what a robot asks, in a reply too: whether it awaits an answer; `interrupted`: who asked ended."""
     answer_id: str = ""
     """Key of the message that answered it."""
+    asks_yes: bool = False
+    """Whether a robot asks for a yes to what it proposes: as long as that waits."""
     reply_to: str = ""
     """Key of the question or message that this one answers."""
     draft: bool = False

@@ -85,8 +85,15 @@ class WebState:
         if isinstance(message, PlanProposal):
             self.plans.on_proposal(message)
             return
+        waited = self._waits(message.target)
         self.plans.on_update(message)
         self.robots.on_plan(message)
+        if waited and not self._waits(message.target):
+            self.chat.on_decided(message.target)
+
+    def _waits(self, robot: str) -> bool:
+        """Whether something that a robot proposed waits for a yes."""
+        return any(proposal.robot == robot for proposal in self.plans.proposals.values())
 
     def on_event(self, event: GraphEvent) -> None:
         """An engine speaks."""
@@ -141,6 +148,7 @@ class WebState:
     def remove_robot(self, name: str) -> None:
         """Take a robot off every list."""
         self.plans.forget(name)
+        self.chat.on_decided(name)
         self.views.pop(name, None)
         self.robots.remove(name)
 

@@ -5,6 +5,7 @@ import { Link } from 'wouter';
 import { decidePlan } from '@/live/api';
 import { linesOf } from '@/live/lines';
 import { withMission } from '@/live/missions';
+import { wishing } from '@/live/questions';
 import { useWorld } from '@/live/store';
 import type { ChatEntry, ProposalView } from '@/live/types';
 import { attempt } from '@/state/do';
@@ -46,6 +47,12 @@ export function Asks({ chosen, asked, onChoose }: Props) {
     },
     [proposals, missions, chosen, asked],
   );
+  const chat = useWorld((world) => world.chat);
+  /** The message that says what a proposal is about; of several of one robot it is not known which says which. */
+  const saidIn = ({ robot }: ProposalView) => {
+    const all = Object.values(proposals).filter((one) => one.robot === robot);
+    return all.length === 1 ? ([...wishing(chat, all)][0] ?? '') : '';
+  };
   const [back, setBack] = useState(0);
   const at = back % Math.max(1, waiting.length);
   const shown = waiting[at];
@@ -56,7 +63,7 @@ export function Asks({ chosen, asked, onChoose }: Props) {
     </Button>
   );
   return 'digest' in shown ? (
-    <Proposal key={shown.id} proposal={shown} chosen={chosen}>
+    <Proposal key={shown.id} proposal={shown} saidIn={saidIn(shown)} chosen={chosen}>
       {others}
     </Proposal>
   ) : (
@@ -97,7 +104,14 @@ function Question({ entry, isOneOfMany, onChoose, children }: QuestionProps) {
   );
 }
 
-function Proposal({ proposal, chosen, children }: { proposal: ProposalView; chosen: readonly string[]; children: React.ReactNode }) {
+interface ProposalProps {
+  proposal: ProposalView;
+  saidIn: string;
+  chosen: readonly string[];
+  children: React.ReactNode;
+}
+
+function Proposal({ proposal, saidIn, chosen, children }: ProposalProps) {
   const { t } = useTranslation(['plan', 'chat']);
   const [busy, setBusy] = useState(false);
   const writing = useDrafts(({ drafts }) => Boolean(drafts[draftKey(chosen)]?.text)); // then sending is what stands out
@@ -106,14 +120,15 @@ function Proposal({ proposal, chosen, children }: { proposal: ProposalView; chos
     await attempt(() => decidePlan(proposal.robot, { id: proposal.id, digest: proposal.digest, decision }));
     setBusy(false);
   };
+  const isRead = useInSight(saidIn) && chosen.length === 1;
   const lines = linesOf(proposal.steps);
   const wishes = [...proposal.changes, ...lines.map(({ step }) => sentence(step.label))];
   return (
     <section className={css.ask} data-comes aria-label={t('chat:asksHere', { robot: proposal.robot })}>
-      <p className={css.title}>
+      <p className={css.title} data-read={isRead}>
         <Link href="/plan">{t('proposalTitle', { robot: proposal.robot })}</Link>
       </p>
-      <p className={css.wishes} ref={byKeys}>{wishes.join(' · ')}</p>
+      <p className={isRead ? 'hidden' : css.wishes} ref={isRead ? null : byKeys}>{wishes.join(' · ')}</p>
       <div className={css.buttons}>
         <Button needs="approve" tone={writing ? 'plain' : 'main'} icon="check" isDisabled={busy} onPress={() => void decide('approve')}>
           {t('approve', { count: lines.length, what: sentence(lines[0]?.step.label ?? '') })}

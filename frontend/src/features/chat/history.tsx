@@ -12,7 +12,7 @@ import { Entry } from './entry';
 import css from './history.module.css';
 import { undelivered, useOutbox } from '@/state/outbox';
 import { PendingEntry } from './pending-entry';
-import { askedAnew, offering } from '@/live/questions';
+import { askedAnew, offering, wishing } from '@/live/questions';
 import { speakerKey } from './speaker';
 import { Thinking } from './thinking';
 import { useMomentShown } from './use-moment';
@@ -48,6 +48,8 @@ export function History({ entries, asked, onChoose, onEdit, empty }: Props) {
   const { scroller, atEnd, unseen, toEnd, keepPlace } = useStickToEnd(entries, waiting.length, shown);
   const offers = useMemo(() => offering(entries.filter((one) => !asked.includes(one))), [entries, asked]);
   const anew = useMemo(() => askedAnew(entries), [entries]);
+  const proposals = useWorld((world) => world.proposals);
+  const wishes = useMemo(() => wishing(entries, Object.values(proposals)), [entries, proposals]);
   const visible = entries.slice(-shown);
   const more = shown < entries.length || !complete;
 
@@ -87,7 +89,7 @@ export function History({ entries, asked, onChoose, onEdit, empty }: Props) {
                 key={entry.id}
                 entry={entry}
                 offers={offers.has(entry.id)}
-                asks={asked.includes(entry)}
+                asks={asked.includes(entry) || wishes.has(entry.id)}
                 isAnew={anew.has(entry.id)}
                 isStop={entry.id === stop}
                 showName={newDay || !sameSpeaker(before, entry)}

@@ -13,5 +13,5 @@ export function useInSight(id: string): boolean {
     look.observe(said);
     return () => look.disconnect();
   }, [id]);
-  return isSeen;
+  return id !== '' && isSeen;
 }
