@@ -1,7 +1,7 @@
 /** What an operator sees of robots and what they remember: pictures, map, memory, problems. */
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
-import { hasBrowser, robotNamed, say, sizes, startStage, untilItMoved, type Stage } from './stage';
+import { hasBrowser, PATIENCE_MS, robotNamed, say, sizes, startStage, untilItMoved, type Stage } from './stage';
 
 describe.skipIf(!hasBrowser)('an operator who looks around', () => {
   let stage: Stage;
@@ -35,6 +35,18 @@ describe.skipIf(!hasBrowser)('an operator who looks around', () => {
     await page.getByRole('checkbox', { name: 'Map' }).check({ force: true });
     await page.reload();
     await page.getByRole('button', { name: 'Enlarge Map of David' }).waitFor();
+  });
+
+  it('sees two pictures whole beside a plan', async () => {
+    const page = await stage.open(sizes.desktop);
+    await say(page, 'Go to the bed.');
+    await page.getByRole('heading', { name: 'Plan' }).waitFor();
+    await page.getByRole('button', { name: 'Choose' }).click();
+    await page.getByRole('checkbox', { name: 'Map' }).check({ force: true });
+    await page.keyboard.press('Escape');
+    const pictures = page.getByRole('group', { name: 'Pictures' });
+    const bottoms = () => pictures.evaluate((group) => [...group.querySelectorAll('canvas')].map((one) => one.getBoundingClientRect().bottom <= group.getBoundingClientRect().bottom));
+    await expect.poll(bottoms, { timeout: PATIENCE_MS }).toEqual([true, true]);
   });
 
   it('is shown what a robot asks while no page is looked at, and not a second time while one is', async () => {
