@@ -115,6 +115,8 @@ async def test_what_was_wished_while_it_went_on_stands_beside_what_was_wished_fi
         await rig.heard()
         (found,) = (await rig.http.get("/api/history")).json()["rounds"]
         assert (found["words"], found["state"]) == ("look at the box. Is the door shut?", "done")
+        for words, count in (("door", 1), ("BOX", 1), ("window", 0)):
+            assert len((await rig.http.get(f"/api/history?q={words}")).json()["rounds"]) == count, words
 
         rig.robots.tell(
             topics.PLAN_DECISION, PlanDecision(target="Ada", decision="edit", steps=(LOOK,), by=KIM)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Annotated, Final
 
 from fastapi import APIRouter, Query
@@ -48,6 +49,8 @@ async def get_history(
         robot=robot, text=q, since_unix_ms=since, until_unix_ms=until, before=before, limit=limit + 1
     )
     rounds, complete = await _rounds(web, wanted, language)
+    if q:  # what was wished while it went on stands with its end
+        rounds, complete = await _with_later_words(web, wanted, rounds, complete, language)
     named = [one for one in rounds if by.casefold() in f"{one.by} {one.approved_by}".casefold()]
     return HistoryPage(rounds=tuple(named), complete=complete)
 
@@ -95,7 +98,12 @@ async def get_round_file(
     )
 
 
-async def _rounds(web: Backend, wanted: GetAudit, language: SpokenLanguage) -> tuple[list[RoundView], bool]:
+async def _rounds(
+    web: Backend,
+    wanted: GetAudit,
+    language: SpokenLanguage,
+    keep: Callable[[RoundView], bool] = lambda _: True,
+) -> tuple[list[RoundView], bool]:
     """Newest first, and whether nothing older fits."""
     starts = (await ask_log(web, wanted.model_copy(update={"effect": "start"}))).entries
     if not starts:
@@ -106,7 +114,24 @@ async def _rounds(web: Backend, wanted: GetAudit, language: SpokenLanguage) -> t
     shown = starts if complete or wanted.limit == 1 else starts[:-1]
     incidents = (await ask_incidents(web, GetIncidents(robot=wanted.robot, limit=_MOST))).incidents
     rounds = rounds_of(shown, ends, running_graphs(web.state), incidents, language)
-    return [await _with_pictures(web, one) for one in rounds], complete
+    return [await _with_pictures(web, one) for one in rounds if keep(one)], complete
+
+
+async def _with_later_words(
+    web: Backend, wanted: GetAudit, found: list[RoundView], complete: bool, language: SpokenLanguage
+) -> tuple[list[RoundView], bool]:
+    """And those of which only the end says the words that are looked for."""
+    text = wanted.text.casefold()
+    known = {one.number for one in found}
+
+    def says(one: RoundView) -> bool:
+        return one.number not in known and text in one.words.casefold()
+
+    all_of_it = wanted.model_copy(update={"text": "", "limit": _MOST})
+    more, whole = await _rounds(web, all_of_it, language, keep=says)
+    both = sorted([*found, *more], key=lambda one: one.number, reverse=True)
+    most = wanted.limit - 1
+    return both[:most], complete and whole and len(both) <= most
 
 
 async def _with_pictures(web: Backend, one: RoundView) -> RoundView:
