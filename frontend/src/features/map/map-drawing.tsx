@@ -195,7 +195,8 @@ function Labels({ things, rooms, zones, candidates, rovers, goals, view, size, r
   // A room that is closed says its name already.
   const closed = zones.filter(({ name }) => name && !rooms.some((room) => room.name.toLowerCase() === name.toLowerCase())).map((zone) => zoneLabel(zone, things, view, size));
   const isFirst = ({ id }: Label) => id.startsWith('candidate');
-  const labels = [...robots, ...named.filter(isFirst), ...large, ...closed, ...named.filter((one) => !isFirst(one))];
+  // A room's name has the whole room to stand in; where it is closed is said there or nowhere.
+  const labels = [...robots, ...named.filter(isFirst), ...closed, ...large, ...named.filter((one) => !isFirst(one))];
   const at = (place: Place, radius: number) => ({ at: toScreen(view, size, place), radius });
   const marks = [...rovers.map(({ pose }) => at(pose, robotPx)), ...goals.map((goal) => at(goal, GOAL_M * view.scale))];
   return (

@@ -146,6 +146,16 @@ describe('the map', () => {
     expect(document.querySelectorAll('text[data-of="zone"]')).toHaveLength(1);
   });
 
+  it('writes what is closed where the name of its room would stand, and that elsewhere in the room', async () => {
+    const zone = { kind: 'keep_out', map: 'hall', robots: [], exempt: [], id: 'wet', name: 'Wet floor', rectangle: [2.8, 2, 3.4, 2.4] };
+    const rules = [{ rule: zone, text: '', holds: true }];
+    vi.stubGlobal('fetch', network({ map: { json: mapInfo }, 'rules?language=en': { json: { rules } } }));
+    useLive.getState().takeSnapshot(snapshot({ info: { ...snapshot().info, modules: { rules: true } }, robots: [robot({ name: 'Ada' })], views: [mapView] }));
+    render(<MapPanel />);
+    await screen.findByText('Wet floor');
+    expect(document.querySelectorAll('text[data-of="room"]')).toHaveLength(1);
+  });
+
   it('says in words where each robot of the same map is', async () => {
     await show();
     const list = within(screen.getByRole('region', { name: 'The map as a list' }));
