@@ -77,7 +77,11 @@ async def test_to_go_on_is_a_yes_to_what_a_robot_that_stands_has_just_asked() ->
         asked = await p.say("A", "turn around instead")
         assert p.proposal("A") is not None and "Shall I?" in asked.message
         await p.say("A", "carry on")
-        assert await ended(events) == ["finished", "skipped", "finished"]
+        while (states := await ended(events))[2:] != [
+            "finished"
+        ]:  # what is left out may end before the rest comes
+            pass
+        assert states == ["finished", "skipped", "finished"]
         assert p.proposal("A") is None and p.plan("A").steps[2].label.startswith("Turn")
 
 
