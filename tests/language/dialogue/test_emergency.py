@@ -140,6 +140,7 @@ def test_what_no_healthy_person_does_alarms_whatever_else_is_said(message: str) 
         "check whether Ruth is on the floor",
         "the red box is on the floor",
         "Water is on the floor",
+        "the Blue Crate is on the floor",
         "she doesn't respond to my letters",
         "the pump is not responding",
     ],

@@ -82,23 +82,28 @@ def emergency(heard: Heard) -> Decision | None:
 
 def _suffers(text: str, situation: Situation) -> bool:
     """Whether it says of a person what no healthy one does, whatever else is in it: "he is not breathing"."""
-    robots = {name.lower() for name in situation.robots}
+    known = {name.lower() for name in situation.robots}
+    known |= {word for thing in situation.objects for word in thing.description.lower().split()}
     for found in _SUFFERING.finditer(text):
-        who = found["who"] or found["down"] or "I"
+        who, before = found["who"] or found["down"] or "I", text[: found.start()]
         low = who.lower()
-        named = who.istitle() and low not in _NOBODY
-        person = named or low in _PEOPLE or is_somebody(low)
-        if person and low not in robots and _IN_CASE.search(text[: found.start()]) is None:
+        named = (
+            who.istitle() and len(who) > 1 and low not in known | _NOBODY and not _DESCRIBED.search(before)
+        )
+        person = named or low in _PEOPLE or (is_somebody(low) and low not in known)
+        if person and _IN_CASE.search(before) is None:
             return True
     return False
 
 
 _PEOPLE: Final = word_set("i he she they we somebody someone")
 _NOBODY: Final = word_set(
-    "it that this these those what which who there something everything nothing all one the water milk "
-    "coffee tea oil paper juice soup food glass dirt lunch dinner wine beer"
+    """it that this these those what which who there something everything nothing all one the nobody everybody
+    water milk coffee tea oil paper juice soup food glass dirt breakfast lunch dinner wine beer box
+    package parcel laundry towel cup plate book mail rubbish trash"""
 )
 """What a sentence may begin with, in a capital letter, and is no name."""
+_DESCRIBED: Final = re.compile(r"\b(?:the|an?|this|that|our|your|its)(?: [\w-]+){0,2} $", re.IGNORECASE)
 _IN_CASE: Final = re.compile(r"\b(?:if|whether|when|unless|until|in case|once)\b[^.!;?]*$", re.IGNORECASE)
 _NOT: Final = (
     r" ?(?:(?: ca| could| do| does| is| are| was| wo)n['’]?t|(?: can| could| does| do| is| are|['’]s|['’]m|"
