@@ -376,10 +376,8 @@ class ChatInterface(Node):
         own = self._offered.decided(target, said, names)
         asked_for_others = self._offered.newest(target) is None and self._offered.is_asked(target)
         if own is not None:
-            if not self._controls.hand_on(
-                target, own, said
-            ):  # it asks once more, and so the others wait, too
-                return True
+            if not self._controls.hand_on(target, own, said):
+                return True  # it asks once more, and so the others wait, too
         elif not asked_for_others:
             return False
         mates = [

@@ -223,9 +223,8 @@ class Ordering:
             self._plans.send(plan, plan.give_up())
         elif plan.failed is not None or clears:
             self._correct(plan, order, calls, control, judgement)
-        elif (
-            plan.update().state == "paused"
-        ):  # what failed went on meanwhile, and "I go on" was said too early
+        elif plan.update().state == "paused":
+            # What failed went on meanwhile, and "I go on" was said too early.
             self._plans.say(plan.target, self._commands.still(plan.target), "info")
 
     def _correct(

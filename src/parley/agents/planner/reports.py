@@ -403,4 +403,4 @@ class Reports:
                 step.state = "finished"
 
     def _abandon_start(self) -> None:
-        self._plan.graph_name, self._plan.run = "", "none"
+        self._plan.graph_name, self._plan.run, self._plan.unbegun = "", "none", False
