@@ -158,6 +158,15 @@ async def test_a_correction_of_which_nothing_comes_leaves_the_robot_standing(par
     assert dropped(party) == []
 
 
+async def test_a_question_behind_a_call_to_stop_is_answered_while_the_robot_stands(party: Crew) -> None:
+    party.language.will("interpret", ChatAction(message_response="It is shut."))
+    party.observer.say("wait, is the door open?", "A")
+    await party.hears("It is shut.")
+    await party.state("paused")
+    assert party.language.asked[-1][1].message == "is the door open?"
+    assert sum("stopped" in said or "still" in said for said in party.texts()) == 1
+
+
 @pytest.mark.parametrize("change", [{"clear": {}}, {"pop": {"parameters": 0}}, {"skip": {}}], ids=str)
 async def test_what_a_person_stopped_an_engine_neither_lets_go_on_nor_gives_up(
     party: Crew, change: dict[str, object]

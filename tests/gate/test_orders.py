@@ -39,7 +39,9 @@ def test_whatever_an_answer_says_of_itself_it_is_the_engines() -> None:
     assert (order.behalf, order.words) == (KIM, "go")
 
 
-@pytest.mark.parametrize(("doubt", "why"), [("", ""), ("go\nyes", "go yes"), ("…", "not sure")])
+@pytest.mark.parametrize(
+    ("doubt", "why"), [("", ""), ("go\nyes", "go yes"), ("…", "not sure"), ("?", "from here")]
+)
 def test_an_engine_may_want_a_yes_but_does_not_word_the_question(doubt: str, why: str) -> None:
     asked = admitted("go", needs_yes=doubt).order.needs_yes
     assert why in asked and bool(asked) is bool(doubt)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from parley.gate.stop_words import (
+    asked_behind,
     called,
     calls_to_stop,
     has_stop_word,
@@ -58,6 +59,23 @@ def test_a_call_to_all_is_for_all(said: str) -> None:
 def test_a_no_is_one_only_if_nothing_else_is_said() -> None:
     assert all(map(is_no, ("no", "No!", "no no no", "nope", "not there!", "Ei.")))
     assert not any(map(is_no, ("", "no problem", "no, go to the box", "go on", "not yet")))
+
+
+@pytest.mark.parametrize(
+    ("text", "rest"),
+    [
+        ("wait, is the door open?", "is the door open?"),
+        ("no, hold on a second: where's the box?", "where's the box?"),
+        ("Stop! Who told you that?", "Who told you that?"),
+        ("wait, could you look at the box first?", ""),
+        ("wait, what about the door?", ""),
+        ("wait, do you mind going to the box?", ""),
+        ("is the bus stop open?", ""),
+        ("wait", ""),
+    ],
+)
+def test_a_question_may_follow_words_of_stopping(text: str, rest: str) -> None:
+    assert asked_behind(text) == rest
 
 
 @pytest.mark.parametrize(

@@ -26,7 +26,7 @@ from parley.messages.plain import one_line
 from parley.messages.principal import Principal
 from parley.sentences import Sentence, sentence
 
-__all__ = ["UNSURE_OF_ALL", "Admitted", "Heard", "admit", "admit_repair", "engine", "is_chosen"]
+__all__ = ["NOT_SEEN", "UNSURE_OF_ALL", "Admitted", "Heard", "admit", "admit_repair", "engine", "is_chosen"]
 
 SAID_NO: Final = sentence("you said no to something")
 NOT_ASKED_FOR: Final = sentence("you did not say so in so many words")
@@ -39,6 +39,12 @@ _DECIDING: Final = re.compile(
 _REFERRING: Final = re.compile(r"\b(?:it|that|this|those|them|seda|see|selle)\b", re.IGNORECASE)
 UNSURE_OF_ALL: Final = "…"
 """What an engine gives as the words it did not understand where it doubts the whole."""
+NOT_SEEN: Final = "?"
+"""What it gives there where it was asked something that only a look can tell."""
+_DOUBTS: Final = {
+    UNSURE_OF_ALL: sentence("I am not sure that I understood you"),
+    NOT_SEEN: sentence("I cannot tell that from here"),
+}
 MAX_MEMORIES: Final = 20
 """More than this in one answer nobody told."""
 
@@ -160,8 +166,8 @@ def _doubted(answer: ChatAction) -> str:
         return ""
     if answer.called:
         return sentence("No robot here is called “{words}”", words=one_line(answer.called)[:80])
-    if words == UNSURE_OF_ALL:
-        return sentence("I am not sure that I understood you")
+    if words in _DOUBTS:
+        return _DOUBTS[words]
     return sentence("I did not understand “{words}”", words=one_line(words)[:80])
 
 

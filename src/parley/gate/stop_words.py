@@ -17,6 +17,7 @@ from parley.messages.plain import named_in
 
 __all__ = [
     "STOP_WORDS",
+    "asked_behind",
     "called",
     "calls_to_stop",
     "has_stop_word",
@@ -135,6 +136,23 @@ def only_takes_back(text: str, *, moves: bool = True) -> bool:
     rest = _STOP.sub(" ", plain)
     more = _BEHIND.search(rest) if moves else len(re.findall(r"\w+", rest)) > _FEW
     return _STOP.search(plain) is not None and only_waits(text) and bool(more)
+
+
+def asked_behind(text: str) -> str:
+    """The question that follows words of stopping ("wait, is it open?"); empty if something else does.
+
+    What may be an order in the form of a question ("wait, could you ...") is none.
+    """
+    found = _ASKED.fullmatch(_plain(text))
+    return found["rest"] if found is not None else ""
+
+
+_ASKED: Final = re.compile(
+    rf"\W*(?:(?:no|oh|please|{STOP_WORDS})\W+)*(?:{STOP_WORDS})(?:\W+(?:a|one|moment|second|sec|minute|please))*"
+    r"(?:\s*[,.!;:–-]+\s*|\s+)(?P<rest>(?:(?:is|are|was|were|did|do|does|have|has|where|who|when|why|how|"
+    r"which|what)(?!\s+(?:about|if|don't|not)\b|\s+you\s+mind\b)|what's|where's|who's)\s.+\?)\W*",
+    re.IGNORECASE | re.DOTALL,
+)
 
 
 def only_waits(text: str) -> bool:

@@ -213,8 +213,8 @@ async def test_an_open_engine_has_loaded_what_its_first_message_needs() -> None:
         ),
         ("head to the desk, and from there to the office", [("GO", ["desk"]), ("GO", ["office"])]),
         ("start at the desk and finish at the office", [("GO", ["desk"]), ("GO", ["office"])]),
-        ("go past the desk to the office", [("GO", ["office"])]),
-        ("go through the office to the desk by the lamp", [("GO", ["desk"])]),
+        ("go past the desk to the office", [("GO", ["desk"]), ("GO", ["office"])]),
+        ("go through the office to the desk by the lamp", [("GO", ["office"]), ("GO", ["desk"])]),
     ],
 )
 def test_what_people_put_around_an_order_changes_nothing_of_it(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from parley.cli.actions import catalogue_with
+from parley.gate.orders import NOT_SEEN
 from parley.language.base import Turn
 from parley.language.builtin.decision import Answer, Ask, Decision, Do, Edit, Remember
 from parley.language.builtin.engine import BuiltinLanguage
@@ -44,12 +45,32 @@ def places(said: str) -> list[str]:
     [
         ("go to where the turning circle is", ["turning circle"]),
         ("go to bay A by post 3", ["bay A"]),
+        ("go via bay A to the turning circle", ["bay A", "turning circle"]),
+        ("drive past the turning circle to bay C", ["turning circle", "bay C"]),
+        ("go through the wall to bay A", ["bay A"]),
         ("drive to the turning circle, bay A and lift shaft B resting place",
          ["turning circle", "bay A", "lift shaft B resting place"]),
     ],
 )  # fmt: skip
 def test_a_place_is_where_its_name_says(said: str, where: list[str]) -> None:
     assert places(said) == where
+
+
+@pytest.mark.parametrize("said", ["bay A", "the turning circle, now", "hello bay B"])
+def test_a_name_alone_is_neither_a_greeting_nor_an_order(said: str) -> None:
+    made = decided(said)
+    assert isinstance(made, Ask) and made.question.startswith("Shall I go to the")
+
+
+@pytest.mark.parametrize("said", ["water it", "forget what I said about bay A", "do the first one again"])
+def test_no_action_is_offered_that_shares_no_word_with_an_order(said: str) -> None:
+    made = ENGINE.decide(situation(said, objects=PLACES, catalogue=SHIPPED))
+    assert not isinstance(made, Ask) or not made.offer
+
+
+def test_what_only_a_look_tells_is_said_to_be_so() -> None:
+    made = ENGINE.decide(situation("is bay A empty?", objects=PLACES, catalogue=SHIPPED))
+    assert isinstance(made, Ask) and made.offer and made.unclear == NOT_SEEN
 
 
 def test_a_look_goes_on_with_what_is_named_behind_and_then() -> None:

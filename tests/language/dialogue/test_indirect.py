@@ -11,7 +11,7 @@ from parley.language.builtin.tokens import tokenize
 from parley.language.dialogue.indirect import meant_order
 from parley.language.dialogue.questions import plain
 from parley.language.lexicon import load_data
-from tests.language.builtin.worlds import situation
+from tests.language.builtin.worlds import situation, thing
 
 ENGINE = BuiltinLanguage()
 
@@ -43,6 +43,12 @@ def test_what_may_be_a_question_is_offered(said: str, asked: str) -> None:
 )  # fmt: skip
 def test_what_only_looks_like_one_is_not_done(said: str) -> None:
     assert not isinstance(ENGINE.decide(situation(said)), Do)
+
+
+def test_what_an_order_said_round_about_leaves_open_is_asked() -> None:
+    racks = (thing("tall rack", 1), thing("low rack", 2))
+    made = ENGINE.decide(situation("I think you should go to the rack", objects=racks))
+    assert isinstance(made, Ask) and made.choices and made.about == "go to the rack"
 
 
 @pytest.mark.parametrize(

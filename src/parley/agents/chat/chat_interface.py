@@ -36,7 +36,7 @@ from parley.clock import Clock
 from parley.gate.assent import assent_of, begins_with_no, gives_up
 from parley.gate.control import Control, control_of
 from parley.gate.rule_talk import RuleTalk
-from parley.gate.stop_words import calls_to_stop, is_no, only_takes_back, opens_with_no
+from parley.gate.stop_words import asked_behind, calls_to_stop, is_no, only_takes_back, opens_with_no
 from parley.gate.table import Effect, verdict
 from parley.gate.told import keeps_away
 from parley.language.base import Language
@@ -246,10 +246,17 @@ class ChatInterface(Node):
         if control is None and said.type == "response" and not said.targets and self._questions.robots():
             self._questions.on_input(said)
             return  # an answer; where several robots wait, the error handler asks which is meant
+        self._take_up(said, control)
+        self._questions.on_input(said)
+
+    def _take_up(self, said: ChatInput, control: Control | None) -> None:
+        """Have each robot that a message is for stand, act, or understand it."""
         calls, lets_go = calls_to_stop(said.message), texts.is_never_mind(said.message)
         refuses = lets_go or self._says_no(said.message, control)
         called = self._called_off(said) if calls else []
+        behind = asked_behind(said.message) if calls else ""
         corrected: list[str] = []
+        asked: list[tuple[str, ChatFeedback | None]] = []
         hear: list[tuple[str, ChatFeedback | None]] = []
         for target in self._meant(said, control, calls=calls, refuses=refuses):
             question = self._questions.newest(target) if said.type == "response" else None
@@ -267,6 +274,10 @@ class ChatInterface(Node):
             objects = moves and not offered and control is None and opens_with_no(said.message)
             if wanted_back:
                 self._leave(target, said)
+            elif behind and turns:  # "wait, is it open?"
+                if halts or stands:
+                    self._controls.act(target, "stop", said, more=False)
+                asked.append((target, None))
             elif turns and (objects or only_takes_back(said.message, moves=moves)):
                 corrected.append(target)
             elif halts and control not in HALTING:
@@ -282,7 +293,7 @@ class ChatInterface(Node):
             else:
                 hear.append((target, question))
         self._hear_all(hear, corrected, said)
-        self._questions.on_input(said)
+        self._hear_all(asked, (), said.model_copy(update={"message": behind}))
 
     def _control_in(self, said: ChatInput) -> Control | None:
         """What a whole message means at once; "stay away from there" says so only to whoever is under way."""

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from parley.gate.assent import assent_of, gives_up
 from parley.gate.control import control_of
+from parley.gate.orders import NOT_SEEN
 from parley.language.base import Situation
 from parley.language.builtin.addressing import addressed, for_nobody
 from parley.language.builtin.answers import answer, look_asked_for
@@ -177,7 +178,7 @@ def _looking(heard: Heard) -> Do | Ask | None:
         return made
     if not isinstance(made, Do) or {*made.robots} - {situation.robot}:
         return None
-    return Ask("I cannot tell that from here. Shall I go and look?", offer=made.deeds)
+    return Ask("I cannot tell that from here. Shall I go and look?", offer=made.deeds, unclear=NOT_SEEN)
 
 
 _IT = re.compile(r"\bit\b", re.IGNORECASE)
@@ -390,7 +391,8 @@ def _without_order(heard: Heard, facts: tuple[Told, ...]) -> Decision:
         return Ask("I have not asked anything that a yes would answer. What shall I do, and with what?")
     if "need" in reading.acts:
         return Ask("What can I do about it? Tell me what to bring, or where to go.")
-    if reading.acts == {"social"}:
+    names = named(heard.tokens, situation.objects, lexicon) or named(heard.tokens, situation.rooms, lexicon)
+    if reading.acts == {"social"} and not policy.only_names(situation, heard.tokens, names, lexicon):
         leaves = policy.LEAVES.search(situation.message.lower())
         return Answer("Goodbye." if leaves else "Hello. Tell me what I can do for you.")
     if situation.message.rstrip().endswith("?"):

@@ -80,7 +80,8 @@ class Ask:
     offer: tuple[Deed, ...] = ()
     """What a yes would do."""
     unclear: str = ""
-    """Of an offer the words that were not understood, or "…" where it is the whole that is doubtful."""
+    """Of an offer the words that were not understood; "…" where the whole is doubtful, "?" where only a look
+    tells what was asked."""
     called: str = ""
     """Who is called in it, where no robot is called so."""
     stops: bool = False

@@ -34,6 +34,8 @@ _NEAR = 0.25
 """Less alike in meaning is no match, whatever the words."""
 _MARGIN = 0.15
 """So far ahead of the next action one must be."""
+_ALIKE = 0.6
+"""So near in meaning an action is where it is offered though no word of the order stands in it."""
 _LEADS, _STANDS, _FITS = 0.3, 0.15, 0.15
 """What it is worth that the verb opens what is said of an action; stands in it; that all words fit."""
 _SHARES = 0.15
@@ -186,7 +188,7 @@ class OwnActions:
             return None
         if agreed or best.item.action.name in framed:
             return None
-        ahead = not best.item.named and _ahead(told) >= _MARGIN
+        ahead = not best.item.named and _ahead(told) >= _MARGIN and best.meaning >= _ALIKE
         hinted = best.word > 0 or best.shared > 0 or ahead
         if best.worth >= _OFFERED and hinted:
             missing = best.filled.missing if best.filled.accounted else ()
@@ -212,7 +214,9 @@ class OwnActions:
     def _shared(self, clause: Clause, item: _Known) -> float:
         """Which share of the words besides the verb stands in what is said of an action."""
         words = [word for filler in clause.fillers for word in filler.words]
-        small = self._lexicon.classes["prepositions"] | self._lexicon.classes["determiners"]
+        classes = self._lexicon.classes
+        kinds = ("prepositions", "determiners", "small", "logic", "pronouns")
+        small = frozenset().union(*(classes[kind] for kind in kinds))
         carrying = {stem(word) for word in words if word not in small and word.isalpha()}
         return len(carrying & item.words) / len(carrying) if carrying else 0.0
 

@@ -25,6 +25,8 @@ _WHO_SAYS = frozenset({"i", "we", "he", "she", "they", "somebody", "someone"})
 _IN_PLACE = frozenset({"SAY", "PHOTO", "DO", "WAIT", "TURN"})
 """What is done so often by itself, wherever that is."""
 _SPOKEN_OF = frozenset({"it", "them", "there", "they", "each", "one", "these", "those"})
+_VIA = frozenset({"via", "past", "through"})
+"""What leads to a place on the way to another."""
 
 
 def orders_of(reading: Reading) -> tuple[Wish, ...]:
@@ -187,7 +189,10 @@ class Planner:
         deeds: list[Deed] = []
         rest = list(wishes)
         while rest:
-            wish = rest.pop(0)
+            *between, wish = self._by_way_of(rest.pop(0))
+            if between:
+                rest = [*between, wish, *rest]
+                wish = rest.pop(0)
             self.last = wish if wish.frame in ("GO", "LOOK") and wish.has("TG") else None
             if wish.negated:
                 self.builder.forbidden(wish)
@@ -213,6 +218,18 @@ class Planner:
                 made = together
             deeds = _joined(deeds, _without_way(deeds, made))
         return deeds
+
+    def _by_way_of(self, wish: Wish) -> tuple[Wish, ...]:
+        """A way with what it leads by, if the map knows that, as ways of their own: "via the yard"."""
+        small, between = self.builder.lexicon.classes["determiners"], list[Filler]()
+        for filler in wish.all("M") + wish.all("P") if wish.frame == "GO" and wish.has("G") else ():
+            words = tuple(itertools.dropwhile(small.__contains__, filler.words[1:]))
+            named = Filler("G", filler.start, filler.end, len(words) - 1, words)
+            if filler.words[0] in _VIA and words and self.builder.is_called(named):
+                between.append(named)
+        met = {filler.start for filler in between}
+        last = replace(wish, fillers=tuple(filler for filler in wish.fillers if filler.start not in met))
+        return (*(replace(wish, fillers=(place,)) for place in between), last)
 
     def _also(self, rest: Sequence[Wish]) -> list[Wish]:
         """The wishes behind one about a set that are about each of it: "... and take a picture there"."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Final
 
@@ -67,6 +67,8 @@ def meant(tokens: Sequence[Token], names: Sequence[str], lexicon: Lexicon, again
     first, _, rest = order.partition(" ")
     verb = next((lemma for lemma in lemmas(first) if (lemma,) in lexicon.verbs), first)  # "going to the desk"
     made = again(f"{verb} {rest}")
+    if isinstance(made, Ask) and made.choices and not (offered or made.offer or made.about):
+        return replace(made, about=f"{verb} {rest}")
     if not isinstance(made, Do):
         return None
     return Ask(f"Shall I {verb} {rest}?", offer=made.deeds) if offered else made
