@@ -148,6 +148,17 @@ async def test_labels_of_what_was_recognised_count() -> None:
         assert here.told[0].startswith("I see: large crack. You told me:")
 
 
+@pytest.mark.parametrize(
+    ("report", "tells"), [("I can see a visitor.", True), ("I can see nobody.", False), ("All done.", False)]
+)
+async def test_a_rule_about_anybody_is_about_every_person(report: str, tells: bool) -> None:
+    async with rig() as here:
+        await here.teach("tell me if you see anybody")
+        here.ended(report)
+        await here.settled()
+        assert bool(here.told) is tells
+
+
 async def test_what_an_action_remembers_counts() -> None:
     async with rig() as here:
         await here.teach(RULE)

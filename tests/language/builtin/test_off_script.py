@@ -665,3 +665,45 @@ def test_a_long_name_is_known_by_its_letter_and_whole_by_any_case(said: str, whe
     made = ENGINE.decide(situation(said, objects=STORES, catalogue=SHIPPED))
     told = [str(v) for deed in made.deeds for v in deed.arguments.values()] if isinstance(made, Do) else []
     assert [*dict.fromkeys(told)] == where
+
+
+@pytest.mark.parametrize(
+    ("said", "kept"),
+    [
+        ("tell me if you see anybody", True),
+        ("call me as soon as you notice water", True),
+        ("shout if you see smoke", True),
+        ("if you see anything tell me", False),  # nothing could ever be held against that
+        ("let me know when you see it", False),
+    ],
+)
+def test_what_is_to_be_told_when_it_is_seen_is_a_rule(said: str, kept: bool) -> None:
+    made = decided(said)
+    assert (isinstance(made, Remember) and made.told[0].is_rule) is kept
+
+
+@pytest.mark.parametrize("said", ["have a quick look at bay A", "take a good look whether bay A is empty"])
+def test_how_a_look_is_called_changes_nothing_of_it(said: str) -> None:
+    made = ENGINE.decide(situation(said, objects=PLACES, catalogue=SHIPPED))
+    assert isinstance(made, Do) and made.deeds[-1].frame == "LOOK"
+
+
+def test_what_the_map_has_of_a_kind_is_counted() -> None:
+    made = decided("how many bays are there?")
+    assert isinstance(made, Answer) and made.text == "On my map there are 3: bay A, bay B and bay C."
+
+
+def test_what_stands_elsewhere_was_not_missed_by_the_last_look() -> None:
+    look = Deed(
+        "Look at bay A",
+        ActionCall(name="Inspect"),
+        ("looks",),
+        ending="done",
+        unix_ms=1_700_000_000_000,
+        seen=("wall",),
+    )
+    dialogue = Dialogue(deeds=(look,), now_unix_ms=1_700_000_100_000)
+    made = ENGINE.decide(
+        situation("is bay C still there?", objects=PLACES, catalogue=SHIPPED, dialogue=dialogue)
+    )
+    assert isinstance(made, Ask) and made.offer

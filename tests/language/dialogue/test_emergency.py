@@ -153,3 +153,17 @@ def test_what_lies_there_or_is_only_asked_about_alarms_nobody(message: str) -> N
 def test_who_politely_asks_for_help_is_asked_for_what(message: str) -> None:
     asked = ENGINE.decide(situation(message))
     assert isinstance(asked, Ask) and not asked.alarms and "If a person is in danger" in asked.question
+
+
+@pytest.mark.parametrize(
+    ("message", "alarms"),
+    [
+        ("if there is smoke, raise the alarm", False),
+        ("let me know if anyone is hurt", False),
+        ("call me if you can hear me, I have fallen", True),
+        ("call me when you can. There is smoke in the office!", True),
+    ],
+)
+def test_to_be_told_of_danger_is_no_danger_yet(message: str, alarms: bool) -> None:
+    made = ENGINE.decide(situation(message))
+    assert (isinstance(made, Ask) and made.alarms) is alarms

@@ -13,7 +13,7 @@ from parley.language.builtin.decision import Answer
 from parley.language.builtin.facts import known_place, places
 from parley.language.builtin.lexicon import Lexicon, stem
 from parley.language.builtin.reading import Reading
-from parley.language.builtin.saying import as_said, with_article
+from parley.language.builtin.saying import as_said, listed, with_article
 from parley.language.builtin.spatial import picked
 from parley.language.builtin.things import link, noun_phrase
 from parley.language.builtin.tokens import Token, tokenize
@@ -105,8 +105,10 @@ def _among(things: Sequence[MapObject], situation: Situation, lexicon: Lexicon) 
     here = [item for item in things if any(one.gap_m(item.x_m, item.y_m) < _IN_M for one in spots)]
     if spots and not here:
         return Answer("By my map there is none there. What is there now I only see when I look.")
-    both = " and ".join(with_article(item.description) for item in here or things)
-    return Answer(f"On my map there is {both}.")
+    found = [with_article(item.description) for item in here or things]
+    if len(found) == 1:
+        return Answer(f"On my map there is {found[0]}.")
+    return Answer(f"On my map there are {len(found)}: {listed(found)}.")
 
 
 def most_asked(tokens: Sequence[Token], situation: Situation, lexicon: Lexicon) -> tuple[MapObject, ...]:

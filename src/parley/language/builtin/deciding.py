@@ -15,7 +15,7 @@ from parley.language.builtin.answers import answer, look_asked_for
 from parley.language.builtin.checks import whole_names
 from parley.language.builtin.decision import Answer, Ask, Control, Decision, Deed, Do, Remember, Told
 from parley.language.builtin.deeds import Builder
-from parley.language.builtin.facts import Heard, listing, places, rule_of, told_of
+from parley.language.builtin.facts import Heard, listing, places, rule_of, rule_of_sight, told_of
 from parley.language.builtin.lexicon import Lexicon, stem
 from parley.language.builtin.planner import Planner, contradicted, orders_of
 from parley.language.builtin.reading import Reading
@@ -121,6 +121,8 @@ def _ruled(heard: Heard) -> Decision | None:
                     made = looks if isinstance(looks, Do) else made
                 return replace(made, told=(*made.told, *kept.told))
     alone = rule_of(heard.parts, message, heard.lexicon)
+    if alone is None and not named(heard.tokens, heard.situation.objects, heard.lexicon):
+        alone = rule_of_sight(message, heard.lexicon)
     return Remember((alone,)) if alone is not None else None
 
 

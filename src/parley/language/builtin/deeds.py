@@ -8,10 +8,10 @@ from parley.language.builtin.amounts import Amount, amount_of
 from parley.language.builtin.checks import Look, check
 from parley.language.builtin.decision import Ask, Deed
 from parley.language.builtin.doing import Doing, followed, slot_of, spoken
-from parley.language.builtin.grounding import WITHIN, Value, is_somebody
+from parley.language.builtin.grounding import WITHIN, Value
 from parley.language.builtin.handling import HANDLED, is_place
 from parley.language.builtin.judging import asked
-from parley.language.builtin.lexicon import lemmas, stem
+from parley.language.builtin.lexicon import is_somebody, lemmas, stem
 from parley.language.builtin.saying import with_article
 from parley.language.builtin.spans import Filler
 from parley.language.builtin.structure import Part

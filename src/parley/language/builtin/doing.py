@@ -10,9 +10,9 @@ from typing import Final
 from parley.gate.stop_words import has_stop_word
 from parley.language.builtin.checks import seen_at
 from parley.language.builtin.decision import Ask, Deed
-from parley.language.builtin.grounding import Grounder, Value, is_somebody
+from parley.language.builtin.grounding import Grounder, Value
 from parley.language.builtin.handling import Handling
-from parley.language.builtin.lexicon import stem
+from parley.language.builtin.lexicon import is_somebody, stem
 from parley.language.builtin.skills import Skill
 from parley.language.builtin.spans import Filler
 from parley.language.builtin.ways import typed

@@ -25,7 +25,17 @@ from parley.language.lexicon import word_set
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
 
-__all__ = ["Heard", "Place", "known_place", "listing", "places", "rule_of", "told_of", "told_set"]
+__all__ = [
+    "Heard",
+    "Place",
+    "known_place",
+    "listing",
+    "places",
+    "rule_of",
+    "rule_of_sight",
+    "told_of",
+    "told_set",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,8 +136,10 @@ def rule_of(parts: Sequence[Part], message: str, lexicon: Lexicon) -> Told | Non
     others = [
         part for part in parts if part.clause.link not in ("if", "when", "main", "not", "times", "delay")
     ]
+    rule = read_rule(message)
     if (
-        read_rule(message) is None
+        rule is None
+        or (rule.about == "sight" and not rule.names)  # of "anything" nobody could tell that it is there
         or len(cases) != 1
         or others
         or (not cases[0].clause.fronted and len(parts) > 2)
@@ -143,9 +155,27 @@ def rule_of(parts: Sequence[Part], message: str, lexicon: Lexicon) -> Told | Non
     wrong = bool({*words} & lexicon.classes["trouble"]) and cases[0].clause.link == "when"
     if not (sees or wrong) or (parts[0] is not cases[0] and cases[0].clause.fronted):
         return None
-    name = words[2:] if sees else words
+    return _protocol(words[2:] if sees else words, message, lexicon)
+
+
+def rule_of_sight(message: str, lexicon: Lexicon) -> Told | None:
+    """A rule that is all of a message, about what the robot may see: "tell me if you see anybody"."""
+    rule = read_rule(message)
+    if (
+        rule is None
+        or rule.about != "sight"
+        or not rule.names
+        or {act.kind for act in rule.acts} - {"stop", "tell", "cancel"}
+    ):
+        return None
+    sees = rule.case[:1] == ("you",) and {*rule.case[1:2]} <= lexicon.classes["meeting"]
+    return _protocol(rule.case[2:], message, lexicon) if sees else None
+
+
+def _protocol(name: Sequence[str], message: str, lexicon: Lexicon) -> Told | None:
+    """A rule about what is called so; None about "it": "look for the mug and take it if you see it"."""
     if {*name} <= lexicon.classes["pronouns"] | lexicon.classes["persons"]:
-        return None  # "look for the mug and take it if you see it"
+        return None
     small = lexicon.classes["determiners"] | lexicon.classes["small"] | lexicon.classes["prepositions"]
     key = "_".join(word for word in name if word not in small)[:150]
     text = message.strip().rstrip(".!")

@@ -9,7 +9,7 @@ from parley.language.base import Situation
 from parley.language.builtin.amounts import Amount, amount_of, direction_of
 from parley.language.builtin.decision import Ask, Deed, Note
 from parley.language.builtin.facts import Place, known_place, told_set
-from parley.language.builtin.lexicon import Lexicon, stem, stems
+from parley.language.builtin.lexicon import Lexicon, is_somebody, stem, stems
 from parley.language.builtin.saying import as_said, which_one, with_article
 from parley.language.builtin.sets import Group, apart, group, without
 from parley.language.builtin.skills import Skills
@@ -20,11 +20,10 @@ from parley.language.builtin.tokens import Token, point_of, tokenize
 from parley.language.builtin.wishes import Wish
 from parley.language.dialogue.map_words import distance_m, in_room, named, same_kind
 from parley.language.dialogue.speaker import name_of
-from parley.language.lexicon import load_data, word_set
-from parley.umrf.kinds import is_word_for
+from parley.language.lexicon import word_set
 from parley.world.object_map import MapObject
 
-__all__ = ["WITHIN", "Grounder", "Value", "is_somebody"]
+__all__ = ["WITHIN", "Grounder", "Value"]
 
 _MOVABLE = word_set("TAKE BRING GIVE PUT FIND COUNT POUR CUT MIX COOK DO MAKE")
 
@@ -522,14 +521,6 @@ _BITS = {"distance": Amount(0.3, "m"), "angle": Amount(30, "degrees")}
 def _may_be_room(frame: str, filler: Filler) -> bool:
     """Whether a role may be filled by a room: a goal, where something is, or what is looked at."""
     return frame in _IN_ROOMS and (filler.role in "GL" or (frame == "LOOK" and filler.role == "T"))
-
-
-def is_somebody(word: str) -> bool:
-    """Whether a noun is one for people."""
-    people = load_data("people")["people"]
-    return (
-        is_word_for(word, "person") or stem(word) in people or word.endswith(("man", "men", "woman", "women"))
-    )
 
 
 def _at_point(filler: Filler) -> Value | None:

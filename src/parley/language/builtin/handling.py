@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from parley.language.builtin.decision import Ask, Deed
-from parley.language.builtin.grounding import Value, is_somebody
+from parley.language.builtin.grounding import Value
+from parley.language.builtin.lexicon import is_somebody
 from parley.language.builtin.skills import Skill
 from parley.language.builtin.spans import Filler
 from parley.language.builtin.ways import Ways

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from functools import cache, lru_cache
 
 from parley.language.lexicon import load_data, word_map
+from parley.umrf.kinds import is_word_for
 
-__all__ = ["Frame", "Lexicon", "lemmas", "lexicon", "stem", "stems"]
+__all__ = ["Frame", "Lexicon", "is_somebody", "lemmas", "lexicon", "stem", "stems"]
 
 _IRREGULAR = word_map("""took:take taken:take brought:bring went:go gone:go found:find gave:give
 given:give told:tell said:say got:get made:make lit:light held:hold seen:see saw:see laid:lay kept:keep
@@ -136,3 +137,11 @@ def _synonyms() -> dict[tuple[str, ...], frozenset[tuple[str, ...]]]:
         for name in special:
             found.setdefault(tuple(name.split()), set()).add(tuple(general.split()))
     return {name: frozenset(others) for name, others in found.items()}
+
+
+def is_somebody(word: str) -> bool:
+    """Whether a noun is one for people."""
+    people = load_data("people")["people"]
+    return (
+        is_word_for(word, "person") or stem(word) in people or word.endswith(("man", "men", "woman", "women"))
+    )

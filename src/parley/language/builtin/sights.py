@@ -8,8 +8,7 @@ from typing import Final
 
 from parley.language.base import Situation
 from parley.language.builtin.amounts import amount_of
-from parley.language.builtin.grounding import is_somebody
-from parley.language.builtin.lexicon import Lexicon, stem
+from parley.language.builtin.lexicon import Lexicon, is_somebody, stem
 from parley.language.builtin.retyping import retyped
 from parley.language.builtin.spans import Filler
 from parley.language.builtin.tokens import Token, tokenize

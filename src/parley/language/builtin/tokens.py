@@ -75,6 +75,12 @@ def spoken(tokens: Sequence[Token]) -> tuple[Token, ...]:
     """
     kept: list[Token] = []
     loud = [token for token in tokens if not _HUM.fullmatch(token.text)]
+    low = [token.low for token in loud]
+    loud = [
+        token
+        for at, token in enumerate(loud)
+        if not (token.low in _PASSING and low[at - 1 : at] == ["a"] and low[at + 1 : at + 2] == ["look"])
+    ]
     while loud and loud[-1].text in ".…":
         loud.pop()
     for token, behind in zip(loud, [*loud[1:], None], strict=False):
@@ -90,4 +96,6 @@ def spoken(tokens: Sequence[Token]) -> tuple[Token, ...]:
     return tuple(kept)
 
 
+_PASSING = word_set("quick brief little short proper good fast careful thorough")
+"""What looks are called: "have a quick look"."""
 _SHORT = word_set("on in to the at it so no be go up do an and for off all us we if or by my me of is as")

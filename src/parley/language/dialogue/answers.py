@@ -383,6 +383,9 @@ def _seen_thing(situation: Situation, about: str) -> str:
     before = [d for d in _looks(situation) if d.told and any(wanted & _stems(label) for label in d.seen)]
     if before and not _THERE.search(situation.message):
         return f"{before[-1].told[-1]} {_when(before[-1])}"
+    known = [item for item in situation.objects if not item.found and _stems(item.description) <= wanted]
+    if known and not any(_stems(item.description) <= _stems(look.label) for item in known):
+        return ""  # it is somewhere else by the map
     rest = f" I saw {listed(labels)}." if labels else ""
     return f"I did not see any there, when I looked {_at(look.unix_ms)}.{rest}"
 

@@ -9,11 +9,11 @@ from typing import Final
 from parley.language.base import Situation
 from parley.language.builtin.decision import Ask, Decision, Do, Edit
 from parley.language.builtin.facts import Heard
-from parley.language.builtin.grounding import is_somebody
-from parley.language.builtin.lexicon import Lexicon, lemmas
+from parley.language.builtin.lexicon import Lexicon, is_somebody, lemmas
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.tokens import Token, tokenize
 from parley.language.dialogue.map_words import named, named_alone, rooms
+from parley.language.dialogue.standing import tells_in_case
 from parley.language.lexicon import word_set
 
 __all__ = ["NO_ALARM", "emergency", "is_emergency"]
@@ -63,7 +63,7 @@ def emergency(heard: Heard) -> Decision | None:
     ends = [one for one in ends if {*_danger(one, lexicon)}.isdisjoint(names)]  # a "fire door" is none
     alarms = "alarm" in acts or any(_calls(one, lexicon, reader) for one in ends)
     calm = "question" in acts or not alarms or _is_calm(situation, tokens, lexicon)
-    if not suffers and (calm or _does_something(tokens, lexicon)):
+    if not suffers and (calm or _does_something(tokens, lexicon) or tells_in_case(text)):
         return None
     order, told = _beside(text, pieces, lexicon, reader, again)
     if suffers:

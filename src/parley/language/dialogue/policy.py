@@ -33,6 +33,7 @@ from parley.language.dialogue.questions import plain, question_of
 from parley.language.dialogue.rearranging import rearranged
 from parley.language.dialogue.replies import is_thinking
 from parley.language.dialogue.speaker import Again, answered_place, told_place
+from parley.language.dialogue.standing import tells_in_case
 from parley.language.lexicon import word_set
 from parley.messages.plain import in_words
 from parley.umrf.kinds import words_of_name
@@ -274,7 +275,7 @@ def _beyond(heard: Heard) -> Decision | None:
         for info in situation.catalogue
         for word in re.findall(r"[a-z]+", f"{info.name} {info.description} {' '.join(info.phrases)}".lower())
     }
-    if not verb or verb in known or situation.question:
+    if not verb or verb in known or situation.question or tells_in_case(situation.message):
         return None
     places = named_alone(tokens, situation.objects, lexicon)
     near = f" I can go to the {places[-1].description}, if that helps." if places else ""

@@ -38,7 +38,8 @@ class Shape:
 _LEADS: Final = re.compile(
     r"^(?:(?:and|so|but|ok|okay|well|then|now|please|(?:hey|hi|hello)(?: there)?|"
     r"(?:good )?(?:morning|afternoon|evening|day)|oh|ah|hm+|sorry|excuse me|by the way|just|"
-    r"(?:great|fine|good|perfect|thanks|thank you)(?= (?:remember|note|keep|forget|what|where|is|are|did)\b)|"
+    r"(?:great|fine|good|perfect|thanks|thank you)(?= (?:remember|note|keep|forget|what|where|who|how|when|"
+    r"why|which|is|are|was|were|did|do|does|have|has|any|anything)\b)|"
     r"actually|alright|right|wait|no|yes|robot|can you tell me|could you tell me|tell me|do you know|"
     r"say(?= (?:what|where|when|why|who|which|how|is|are|do|did|can|could|have|(?:that|it) again)\b)|"
     r"i (?:want|would like) to know|what i want to know is) )+"

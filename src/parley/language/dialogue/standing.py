@@ -13,11 +13,11 @@ from functools import cache, lru_cache
 from typing import Any, Literal
 
 from parley.language.builtin.amounts import amount_of, in_unit
-from parley.language.builtin.lexicon import lexicon, stem
+from parley.language.builtin.lexicon import is_somebody, lexicon, stem
 from parley.language.builtin.tokens import tokenize
 from parley.language.lexicon import load_data
 
-__all__ = ["Act", "StandingRule", "read_rule", "read_sighting_rule", "sighted"]
+__all__ = ["Act", "StandingRule", "read_rule", "read_sighting_rule", "sighted", "tells_in_case"]
 
 _LONGEST = 400
 
@@ -86,12 +86,28 @@ def read_sighting_rule(text: str) -> StandingRule | None:
     return rule if rule is not None and rule.names and rule.about != "trouble" else None
 
 
+def tells_in_case(text: str) -> bool:
+    """Whether a text says not that something is so, but to be told if it is: "if it burns, call me"."""
+    words = _words(text)
+    if re.search(r"[.!?;–—]\s*\w", text) is not None:
+        return False
+    for case, rest, _ in _cuts(words):
+        acts = _acts(rest, text, marked=False)
+        if case and acts and all(act.kind == "tell" for act in acts):
+            return not any(word.low in _COMMAS for word in case)
+    return False
+
+
 def sighted(rule: StandingRule, reports: Iterable[str]) -> str:
     """The sentence of a report by which what the rule names is there, or an empty text."""
     for report in reports:
         for sentence in re.split(r"(?<=[.!?;])\s+", report):
-            said = {stem(word.low) for word in _words(sentence)}
-            if rule.names <= said and not said & {*load_data("standing")["denials"]} - rule.names:
+            words = [word.low for word in _words(sentence)]
+            said = {stem(word) for word in words}
+            denied = said & {*load_data("standing")["denials"]} - rule.names
+            if any(is_somebody(word) for word in words if word not in _VAGUE):
+                said.add(_SOMEBODY)
+            if rule.names <= said and not denied:
                 return sentence.strip()
     return ""
 
@@ -159,7 +175,15 @@ def _about(told: Sequence[str]) -> Literal["sight", "trouble", ""]:
 
 
 def _names(told: Sequence[str]) -> frozenset[str]:
-    return frozenset(stem(word) for word in told if word not in _generic())
+    names = frozenset(stem(word) for word in told if word not in _generic())
+    return names or frozenset({_SOMEBODY} if _ANYBODY & {*told} else ())
+
+
+_ANYBODY = frozenset({"anybody", "anyone", "somebody", "someone"})
+_SOMEBODY = "somebody"
+"""The name of a case in which any person is seen."""
+_VAGUE = frozenset({"all", "others"})
+"""Words for people that may be for things as well."""
 
 
 @cache
