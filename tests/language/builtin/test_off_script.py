@@ -707,3 +707,47 @@ def test_what_stands_elsewhere_was_not_missed_by_the_last_look() -> None:
         situation("is bay C still there?", objects=PLACES, catalogue=SHIPPED, dialogue=dialogue)
     )
     assert isinstance(made, Ask) and made.offer
+
+
+def test_two_things_that_are_not_clear_are_asked_about_one_after_the_other() -> None:
+    words = "go to the bay and the post"
+    things = (*PLACES[:2], MapObject("p1", "post 1", 1.0, 2.0), MapObject("p2", "post 2", 2.0, 2.0))
+    first = ENGINE.decide(situation(words, objects=things))
+    assert isinstance(first, Ask) and first.choices == ("bay A", "bay B")
+    asked = Dialogue(asked=Asked(words, first.choices))
+    second = ENGINE.decide(situation("bay B", objects=things, dialogue=asked))
+    assert isinstance(second, Ask) and second.choices == ("post 1", "post 2")
+    asked = Dialogue(asked=Asked(second.about, second.choices))
+    made = ENGINE.decide(situation("post 2", objects=things, dialogue=asked))
+    assert isinstance(made, Do)
+    assert [deed.arguments["place"] for deed in made.deeds] == ["bay B", "post 2"]
+
+
+@pytest.mark.parametrize(
+    ("said", "where"),
+    [
+        ("check both the turning circle and the lift shaft B resting place", 2),
+        ("wait at the turning circle until I call you", 1),
+    ],
+)
+def test_what_is_joined_begun_with_or_waited_for_is_done(said: str, where: int) -> None:
+    made = ENGINE.decide(situation(said, objects=PLACES, catalogue=SHIPPED))
+    assert isinstance(made, Do)
+    assert sum(deed.frame == "GO" and not deed.hidden for deed in made.deeds) == where
+    assert made.deeds[-1].frame in ("LOOK", "WAIT")
+
+
+def test_a_noun_is_no_verb_behind_its_article() -> None:
+    made = decided("my phone should be at the turning circle, can you check")
+    assert isinstance(made, Ask) or "phone" not in getattr(made, "text", "")
+
+
+def test_what_is_begun_with_may_be_told_by_where_it_is() -> None:
+    names = ("tall crate", "crate by the ramp", "crate by the gate")
+    things = tuple(MapObject(name, name, float(at), 1.0) for at, name in enumerate(names))
+    made = ENGINE.decide(
+        situation("check all crates but start with the one by the gate", objects=things, catalogue=SHIPPED)
+    )
+    assert isinstance(made, Do)
+    looked = [str(value) for deed in made.deeds if deed.frame == "LOOK" for value in deed.arguments.values()]
+    assert looked == ["crate by the gate", "tall crate", "crate by the ramp"]

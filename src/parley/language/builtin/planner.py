@@ -10,7 +10,7 @@ from parley.language.builtin.amounts import amount_of
 from parley.language.builtin.checks import Look
 from parley.language.builtin.decision import Ask, Deed, Note
 from parley.language.builtin.deeds import Builder
-from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.lexicon import Lexicon, lemmas
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.spans import Filler
 from parley.language.builtin.structure import If, Node, Orders, Part
@@ -25,6 +25,7 @@ _WHO_SAYS = frozenset({"i", "we", "he", "she", "they", "somebody", "someone"})
 _IN_PLACE = frozenset({"SAY", "PHOTO", "DO", "WAIT", "TURN"})
 """What is done so often by itself, wherever that is."""
 _SPOKEN_OF = frozenset({"it", "them", "there", "they", "each", "one", "these", "those"})
+_STAYING = frozenset({"wait", "stay", "stand", "remain", "park"})
 _VIA = frozenset({"via", "past", "through"})
 """What leads to a place on the way to another."""
 
@@ -291,10 +292,8 @@ class Planner:
                         return Ask(
                             f"I do not see what “not {limit.text}” means. Please say what I should do."
                         )
-                case "until" if words and wishes and wishes[-1].frame in ("WAIT", "FOLLOW"):
-                    until = Filler("U", 0, len(words), 0, words, 1.0, limit.text)
-                    last = replace(wishes[-1], fillers=(*wishes[-1].fillers, until))
-                    wishes = (*wishes[:-1], last)
+                case "until" if words and wishes and (lasting := _until(wishes, words, limit.text)):
+                    wishes = lasting
                 case _:
                     return Ask(f"I cannot tell by myself when “{limit.text}” is. What shall I do now?")
         return wishes, times, before
@@ -358,6 +357,18 @@ def _from(place: str, made: list[Deed]) -> list[Deed]:
     """Deeds without the way to where the robot is already."""
     there = place and made and made[0].frame == "GO" and place in made[0].arguments.values()
     return made[2 if made[0].hidden else 1 :] if there else made
+
+
+def _until(wishes: tuple[Wish, ...], words: tuple[str, ...], text: str) -> tuple[Wish, ...]:
+    """Wishes of which the last one lasts until something; nothing if it does not last."""
+    *others, last = wishes
+    until = Filler("U", 0, len(words), 0, words, 1.0, text)
+    stays = {lemma for word in last.verb.split() for lemma in lemmas(word)} & _STAYING
+    if last.frame == "GO" and stays:  # "wait at the desk"
+        return (*wishes, replace(last, frame="WAIT", fillers=(until,)))
+    if last.frame in ("WAIT", "FOLLOW"):
+        return (*others, replace(last, fillers=(*last.fillers, until)))
+    return ()
 
 
 def _is_listed(wish: Wish) -> bool:

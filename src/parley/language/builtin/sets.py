@@ -104,6 +104,10 @@ def _listed(parts: Sequence[list[str]], objects: Sequence[MapObject], lexicon: L
                 tried = _one([noun, *bare], objects, lexicon) or _one([*bare, noun], objects, lexicon)
                 things = tuple(one for one in tried if {*stems(bare)} <= {*stems(one.description.split())})
         if not things:
+            akin = link(part, head_of(part, lexicon), objects, lexicon)
+            if akin.kind == "several":
+                names = tuple(thing.description for thing in akin.things)
+                return Group(doubt=which_one(names), choices=akin.things)
             return Group(doubt=f"I do not know any “{' '.join(part)}” here.")
         found += things
     return Group(tuple(dict.fromkeys(found)))

@@ -80,6 +80,7 @@ def spoken(tokens: Sequence[Token]) -> tuple[Token, ...]:
         token
         for at, token in enumerate(loud)
         if not (token.low in _PASSING and low[at - 1 : at] == ["a"] and low[at + 1 : at + 2] == ["look"])
+        and not (token.low == "both" and _joins_two(low[at + 1 :]))
     ]
     while loud and loud[-1].text in ".…":
         loud.pop()
@@ -96,6 +97,14 @@ def spoken(tokens: Sequence[Token]) -> tuple[Token, ...]:
     return tuple(kept)
 
 
+def _joins_two(words: Sequence[str]) -> bool:
+    """Whether "both" stands before two names, each with its article: "both the desk and the lamp"."""
+    joint = words.index("and") if "and" in words[:_NAME_WORDS] else 0
+    return joint > 0 and words[0] in _OWNED and {*words[joint + 1 : joint + 2]} <= _OWNED
+
+
+_NAME_WORDS = 7
+_OWNED = word_set("the my our your his her their its")
 _PASSING = word_set("quick brief little short proper good fast careful thorough")
 """What looks are called: "have a quick look"."""
 _SHORT = word_set("on in to the at it so no be go up do an and for off all us we if or by my me of is as")

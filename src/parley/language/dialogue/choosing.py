@@ -14,6 +14,7 @@ from parley.language.builtin.decision import Ask, Decision, Deed, Do, Edit
 from parley.language.builtin.lexicon import lexicon
 from parley.language.builtin.sets import kinds
 from parley.language.builtin.spatial import NEAREST, picked
+from parley.language.builtin.things import head_of, link
 from parley.language.builtin.tokens import Token
 from parley.language.dialogue.replies import chosen, names_deed
 from parley.language.dialogue.speaker import Again
@@ -53,7 +54,25 @@ def choice_of(situation: Situation, tokens: Sequence[Token], again: Again) -> De
     one = again(asked.words, [name for name in asked.choices if name != choice])
     if isinstance(one, Do):
         return replace(one, about=asked.words)
+    if isinstance(one, Ask) and one.choices and {*one.choices}.isdisjoint(asked.choices):
+        told = _with_choice(asked.words, choice, asked.choices, situation)
+        return replace(one, about=told) if told else None
     return one if isinstance(one, Edit) or (isinstance(one, Ask) and one.offer) else None
+
+
+def _with_choice(order: str, choice: str, choices: Sequence[str], situation: Situation) -> str:
+    """An order in which what was not clear is called by its name; empty where that stands in no one place."""
+    named = [
+        re.compile(rf"\b{re.escape(kind)}\b", re.IGNORECASE) for kind in _shared_kinds(choices, situation)
+    ]
+    found = [pattern for pattern in named if len(pattern.findall(order)) == 1]
+    return found[0].sub(lambda _: choice, order) if len(found) == 1 else ""
+
+
+def _shared_kinds(names: Sequence[str], situation: Situation) -> set[str]:
+    """What all of several things are."""
+    items = [item for item in situation.objects if item.description in names]
+    return set.intersection(*({*kinds(item)} for item in items)) if items else set()
 
 
 def tells(words: Sequence[str]) -> bool:
@@ -67,8 +86,7 @@ _LEADING_TO: Final = word_set("it that this which who where mean meant there whi
 
 def _by_place(words: Sequence[str], choices: Sequence[str], situation: Situation) -> str | None:
     """The one that is told by where it is: "the one closest to the gate", "the nearest"."""
-    items = [item for item in situation.objects if item.description in choices]
-    shared = set.intersection(*(kinds(item) for item in items)) if items else set()
+    shared = _shared_kinds(choices, situation)
     at = next((n for n, word in enumerate(words) if word in ("one", *NEAREST)), None)
     if not shared or at is None or NEAREST.isdisjoint(words):
         return None
@@ -148,13 +166,23 @@ def in_order(situation: Situation, again: Again) -> Do | None:
             visits[-1] += part
     told = [" ".join(str(value) for deed in visit for value in deed.arguments.values()) for visit in visits]
     names = [item.description for item in situation.objects if any(item.description in one for one in told)]
-    name = chosen((said["edge"] or said["one"]).lower().split(), names)
+    edge = (said["edge"] or said["one"]).lower().split()
+    name = chosen(edge, names) or _one_like(edge, names, situation)
     meant = [visit for visit, text in zip(visits, told, strict=True) if name is not None and name in text]
     if len(meant) != 1 or any(deed.check or deed.open_ended for deed in made.deeds):
         return None
     rest = [visit for visit in visits if visit is not meant[0]]
     last = "last" in (said["where"] or "") or (said["verb"] or "")[:1].lower() in ("f", "e")
     return replace(made, deeds=tuple(itertools.chain(*(rest + meant if last else meant + rest))))
+
+
+def _one_like(words: Sequence[str], names: Sequence[str], situation: Situation) -> str | None:
+    """The one among things of a kind that is described: "the one by the gate"."""
+    shared = _shared_kinds(names, situation)
+    said = [min(shared) if word == "one" and shared else word for word in words]
+    items = [item for item in situation.objects if item.description in names]
+    found = link(said, head_of(said, lexicon()), items, lexicon()) if "one" in words and shared else None
+    return found.things[0].description if found is not None and found.kind == "one" else None
 
 
 _EDGE: Final = re.compile(

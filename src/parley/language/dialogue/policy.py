@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Sequence
 from dataclasses import replace
@@ -266,7 +267,10 @@ def _beyond(heard: Heard) -> Decision | None:
     situation, reading, tokens, lexicon = heard.situation, heard.reading, heard.tokens, heard.lexicon
     orders = [wish for wish in reading.wishes if wish.act == "order" and not wish.negated]
     verbs = {word for wish in orders for word in lemmas(wish.verb.split(" ")[0])} if orders else set()
-    first = next((token.low for token in tokens if token.low not in lexicon.classes["small"]), "")
+    small, led = lexicon.classes["small"], lexicon.classes["determiners"]
+    first = next((token.low for token in tokens if token.low not in small), "")
+    if any(token.low in led and behind.low == first for token, behind in itertools.pairwise(tokens)):
+        first = ""  # "my phone"
     can = tokens[0].low == "can" and len(tokens) > 2 and tokens[1].low == "you"  # "can you dance?"
     first = tokens[2].low if can else first if "order" in reading.acts else ""
     verb = next(iter((verbs | {first}) & lexicon.classes["impossible"]), "")
