@@ -45,7 +45,7 @@ class Builder(Doing):
         times = self._strange(wish) or self.times(wish)
         if isinstance(times, Ask):
             return times
-        wish = self._placed(wish)
+        wish = self._placed(self._gathered(wish))
         thing, handles = wish.one("T"), wish.frame in (*HANDLED, "BRING")
         spoken_of = thing is not None and {*thing.words} <= self.lexicon.classes["pronouns"]
         if handles and spoken_of and self.in_hand is not None:
@@ -101,6 +101,18 @@ class Builder(Doing):
                 return replace(wish, frame="FIND")
         return wish
 
+    def _gathered(self, wish: Wish) -> Wish:
+        """With things and the room in which they are as one role: "check all crates in the yard"."""
+        thing, where = wish.one("T"), wish.one("L")
+        if thing is None or where is None or wish.frame not in ("LOOK", "PHOTO"):
+            return wish
+        words = (*thing.words, *where.words)
+        if not self.is_by_room(words):
+            return wish
+        both = replace(thing, words=words, said=f"{thing.text} {where.text}")
+        rest = tuple(filler for filler in wish.fillers if filler not in (thing, where))
+        return replace(wish, fillers=(*rest, both))
+
     def _placed(self, wish: Wish) -> Wish:
         """With the place of who or what no map holds as a role of its own: "the cup on the desk"."""
         goal = wish.one("G") if wish.frame in ("GO", "BRING", "GIVE") and not wish.has("RL") else None
@@ -127,6 +139,8 @@ class Builder(Doing):
         words, small = named.words, self.lexicon.classes["prepositions"] - {"of"}
         leads = [at for at in range(named.head + 1, len(words)) if words[at] in small]
         if not leads or link(words, named.head, self.situation.objects, self.lexicon).things:
+            return ()
+        if self.is_by_room(words):
             return ()
         at = next((at for at in leads if self._is_where(words[at:])), 0)
         if not at:

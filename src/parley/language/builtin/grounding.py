@@ -9,6 +9,7 @@ from parley.language.base import Situation
 from parley.language.builtin.amounts import Amount, amount_of, direction_of
 from parley.language.builtin.decision import Ask, Deed, Note
 from parley.language.builtin.facts import Place, known_place, told_set
+from parley.language.builtin.in_rooms import group_of_rooms, things_inside
 from parley.language.builtin.lexicon import Lexicon, is_somebody, stem, stems
 from parley.language.builtin.saying import as_said, which_one, with_article
 from parley.language.builtin.sets import Group, apart, group, without
@@ -163,13 +164,17 @@ class Grounder:
         if before is not None:
             return before
         objects, lexicon = self.situation.objects, self.lexicon
+        there = things_inside(filler.words, objects, self.situation.rooms, lexicon)
+        known = mention.kind == "one" and mention.things[0] in there
+        if there and not known and self.group(filler.words) is None:
+            return self._one_of(there)
         inside = self._in_room(frame, filler) if mention.kind != "one" else None
         if inside is not None:
             return self._one_of((inside,))
         near = self._beside(filler, mention.things) if mention.kind == "several" else None
         if near is not None:
             return self._one_of((near,))
-        several = self._others(filler) or group(filler.words, objects, lexicon, self.left_out)
+        several = self._others(filler) or self.group(filler.words, self.left_out)
         several = several or self._told_list(filler, mention)
         if several is not None:
             return self._several(several)
@@ -316,6 +321,18 @@ class Grounder:
             return None
         return self.inside(filler.words)
 
+    def group(self, words: Sequence[str], left_out: Sequence[str] = ()) -> Group | None:
+        """The set that words name, by a room or by themselves; None if they name none."""
+        objects, rooms = self.situation.objects, self.situation.rooms
+        told = group_of_rooms(words, objects, rooms, self.lexicon, left_out)
+        return told or group(words, objects, self.lexicon, left_out)
+
+    def is_by_room(self, words: Sequence[str]) -> bool:
+        """Whether words name things of the map by the room in which they are."""
+        objects, rooms = self.situation.objects, self.situation.rooms
+        several = group_of_rooms(words, objects, rooms, self.lexicon)
+        return several is not None or bool(things_inside(words, objects, rooms, self.lexicon))
+
     def inside(self, words: Sequence[str]) -> MapObject | None:
         """The nearest thing in the room that words name, if they name one."""
         small = self.lexicon.classes["prepositions"] | self.lexicon.classes["determiners"]
@@ -426,7 +443,7 @@ class Grounder:
 
     def is_called(self, filler: Filler) -> bool:
         """Whether a role is a name of something on the map, or of a set, and nothing else."""
-        several = group(filler.words, self.situation.objects, self.lexicon)
+        several = self.group(filler.words)
         found = link(filler.words, filler.head, self.situation.objects, self.lexicon)
         names = {stem(w) for one in found.things for n in (one.description, *one.aliases) for w in n.split()}
         return not several.doubt if several is not None else {stem(word) for word in filler.words} <= names
@@ -440,7 +457,7 @@ class Grounder:
 
     def names_set(self, filler: Filler, without: Sequence[str] = ()) -> bool:
         """Whether a role holds several things, among them what is named as left out."""
-        found = group(filler.words, self.situation.objects, self.lexicon, without)
+        found = self.group(filler.words, without)
         return found is not None and not (without and found.doubt)
 
     def is_one(self, filler: Filler) -> bool:
@@ -452,7 +469,7 @@ class Grounder:
         """Whether a role names something of the map, with all of its words."""
         if filler.role not in "TGLS":
             return False
-        several = group(filler.words, self.situation.objects, self.lexicon)
+        several = self.group(filler.words)
         if several is not None or self.is_placed(filler):
             return several is None or not several.doubt
         named = link(filler.words, filler.head, self.situation.objects, self.lexicon)
@@ -501,7 +518,7 @@ class Grounder:
     def forbidden(self, wish: Wish) -> None:
         """What is not to be done."""
         for filler in wish.all("T") + wish.all("G"):
-            named = group(filler.words, self.situation.objects, self.lexicon)
+            named = self.group(filler.words)
             mention = link(filler.words, filler.head, self.situation.objects, self.lexicon)
             things = named.things if named is not None else mention.things
             self.mentioned += things

@@ -403,7 +403,8 @@ def _asked_again(made: Ask, heard: Heard) -> Ask | Answer | None:
     short = sum(token.is_word for token in tokens) <= _ANSWER
     answers = asked is not None and asked.choices and not (made.choices or made.offer or made.stops)
     told = "told" in reading.acts and tells([token.low for token in tokens if token.is_word])
-    if asked is None or not answers or not short or reading.wishes or told:
+    asks = "question" in reading.acts or situation.message.rstrip().endswith("?")
+    if asked is None or not answers or not short or reading.wishes or told or asks:
         return None
     if not {*asked.choices} <= {item.description for item in situation.objects}:
         return None
