@@ -85,6 +85,12 @@ class Situation:
     dialogue: Dialogue = field(default_factory=Dialogue)
     """What runs, what waits, what was done and seen, on whose words."""
 
+    @property
+    def places(self) -> tuple[MapObject, ...]:
+        """All that words may lead to; a thing goes before a room that is called like it."""
+        things = {item.description.lower() for item in self.objects}
+        return (*self.objects, *(room for room in self.rooms if room.description.lower() not in things))
+
 
 @dataclass(frozen=True, slots=True)
 class ErrorSituation:

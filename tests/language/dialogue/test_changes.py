@@ -11,7 +11,7 @@ from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.dialogue.state import Dialogue, Order
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.status import ActionInfo, PlanProposal, PlanStep
-from parley.world.object_map import MapObject
+from parley.world.object_map import MapArea, MapObject
 
 ENGINE = BuiltinLanguage()
 FIND = ActionInfo(name="Locate", description="Find out where something is.", inputs={"what": "string"},
@@ -72,6 +72,8 @@ async def test_a_thing_takes_the_place_of_all_that_is_taken_back() -> None:
         ("no, also go to the lamp", set(), ["lamp"]),
         ("forget it, the lamp too", {0}, ["lamp"]),
         ("and add the lamp at the end", set(), ["lamp"]),
+        ("and the lamp", set(), ["lamp"]),
+        ("never mind all that, go to the lamp", {0}, ["lamp"]),
         ("go to the lamp", set(), ["lamp"]),
     ],
 )
@@ -336,3 +338,26 @@ async def test_what_was_to_be_done_there_is_not_done_elsewhere(
     assert goals(answer) == ["desk", *stays]
     all_go = any(command.command == "clear" for command in answer.system_cmd)
     assert all_go or dropped(answer) >= {*range(1 + len(deeds))}
+
+
+@pytest.mark.parametrize(
+    ("message", "words"),
+    [
+        ("skip the lamp", "The lamp is not in my plan."),
+        ("are you going to the lamp too?", "No."),
+        ("will you check the desk later?", "Yes."),
+    ],
+)
+async def test_what_is_not_in_the_plan_is_said_not_to_be(message: str, words: str) -> None:
+    answer = await ENGINE.interpret(given(message, "box", "desk"))
+    assert answer.message_response.startswith(words) and not answer.system_cmd and not answer.queue
+
+
+@pytest.mark.parametrize(
+    ("message", "drops"), [("skip the yard", 2), ("not the shed", 2), ("skip the lamp", 0)]
+)
+async def test_rooms_are_taken_out_like_things(message: str, drops: int) -> None:
+    corners = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0))
+    rooms = tuple(MapArea(name, corners).goal for name in ("yard", "shed"))
+    answer = await ENGINE.interpret(replace(given(message, "box", "yard", "shed"), rooms=rooms))
+    assert len(dropped(answer)) == drops, answer.message_response

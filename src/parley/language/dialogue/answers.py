@@ -485,7 +485,7 @@ def _amiss(situation: Situation, about: str) -> str:
 
 
 def _things(situation: Situation, about: str) -> tuple[MapObject, ...]:
-    names = named(tokenize(about), situation.objects, lexicon())
+    names = named(tokenize(about), situation.places, lexicon())
     return names[0].things if len(names) == 1 else ()
 
 

@@ -58,6 +58,7 @@ _GIVEN_UP: Final = r"instead|rather|scratch|forget|never ?mind|drop|cancel|leave
 _INSTEAD: Final = re.compile(rf"\b(?:{_GIVEN_UP}|no|nope|not|(?:i|we) (?:mean|meant)|make (?:it|that))\b")
 """What takes back also what comes "first"; "actually" and "wait" do not."""
 _ADDING: Final = re.compile(
+    r"^(?:(?:ok|okay|yes|please) )*and\b(?!.*\?)|"
     r"\b(?:also|add|too|as well|and then|then|after (?:that|this|wards?)|afterwards|at the end|finally|"
     r"besides|plus|include|append|on top|later|when you are done|when done|next)\b"
 )
@@ -139,7 +140,7 @@ def visits_of(steps: Sequence[PlanStep], situation: Situation) -> list[Visit]:
             words = " ".join(
                 [step.label, step.action.reason, *(text for one in whole for text in texts_of(one.action))]
             )
-            things = _things_in(whole, situation.objects)
+            things = _things_in(whole, situation.places)
             calls = tuple(one.action for one in whole)
             found.append(Visit((*places, place), things, step_words(step.label), calls, words.lower()))
         before, places = [], []
@@ -201,7 +202,7 @@ def change_of(
     """
     if _ASKING.search(situation.message) is not None:
         return None  # "wait, where is the desk?"
-    plan, names = visits(situation), named(tokens, situation.objects, lexicon)
+    plan, names = visits(situation), named(tokens, situation.places, lexicon)
     low = [token.low for token in tokens]
     text = " ".join(low)
     against: list[Named] = []
@@ -339,8 +340,11 @@ def _left_out(situation: Situation, plan: Sequence[Visit], against: Sequence[Nam
     out = [visit for visit in plan if any(visit in _meant(plan, name) for name in against)]
     over = [item.description for name in against if not _meant(plan, name) for item in name.things]
     ended = [deed.label for deed in situation.dialogue.deeds if deed.ending in ("done", "no", "left out")]
-    if any(not any(name in label for label in ended) for name in over):
-        return None
+    if strange := [name for name in over if not any(name in label for label in ended)]:
+        if out or not plan or situation.dialogue.asked is not None or situation.question:
+            return None
+        told = f"{listed([*map(called, strange)])} is not in my plan."
+        return Change(question=f"{told[:1].upper()}{told[1:]} {answer(Question('what_left'), situation)}")
     told = f"I am done with {listed([*map(called, over)])} already." if over else ""
     if not out:
         return Change(question=f"{told} {answer(Question('what_left'), situation)}") if over else None

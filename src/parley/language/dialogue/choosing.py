@@ -165,7 +165,7 @@ def in_order(situation: Situation, again: Again) -> Do | None:
         else:
             visits[-1] += part
     told = [" ".join(str(value) for deed in visit for value in deed.arguments.values()) for visit in visits]
-    names = [item.description for item in situation.objects if any(item.description in one for one in told)]
+    names = [item.description for item in situation.places if any(item.description in one for one in told)]
     edge = (said["edge"] or said["one"]).lower().split()
     name = chosen(edge, names) or _one_like(edge, names, situation)
     meant = [visit for visit, text in zip(visits, told, strict=True) if name is not None and name in text]

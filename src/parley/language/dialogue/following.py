@@ -130,7 +130,7 @@ def followed(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, la
     asks = situation.message.rstrip().endswith("?") and not said.startswith(("how about", "and"))
     if asks or not last.calls or situation.queue or situation.question or len(words) > _LONGEST:
         return None
-    names = named(tokens, situation.objects, lexicon)
+    names = named(tokens, situation.places, lexicon)
     taken = {at for name in names for at in range(name.start, name.end)}
     rest = [token.low for at, token in enumerate(tokens) if token.is_word and at not in taken]
     done = _last_visits(last, situation)

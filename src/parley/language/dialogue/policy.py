@@ -218,7 +218,9 @@ def _on_with_less(situation: Situation, again: Again) -> Edit | None:
     return None
 
 
-_GIVEN_UP: Final = re.compile(r"\W*(?:\w+\W+)?(?:never ?mind|forget (?:it|that|this))\b", re.IGNORECASE)
+_GIVEN_UP: Final = re.compile(
+    r"\W*(?:\w+\W+)?(?:never ?mind|forget (?:all (?:of )?)?(?:it|that|this))\b", re.IGNORECASE
+)
 """Said before something else: only that is to be understood."""
 _JOINT: Final = re.compile(r"[\s,;.]+(?:(?:but|and|only|just|then)\W+)*(?=\w)", re.IGNORECASE)
 
@@ -230,8 +232,9 @@ def _ordered(made: Decision) -> Do | None:
 
 _TAKEN_BACK: Final = re.compile(
     r"\W*(?:(?:oh|no|ah|ok|okay|well|hm+|please|sorry|actually|wait|ugh|fine|right)\W+)*"
-    r"(?:(?:(?:forget|skip) (?:it|that|this|about (?:it|that))|never ?mind(?: (?:it|that|this))?|"
-    r"scratch (?:that|it)|drop (?:that|it)|leave (?:that|it)|cancel (?:that|it)|not that)"
+    r"(?:(?:(?:forget|skip)(?: about)? (?:all (?:of )?)?(?:it|that|this)|"
+    r"never ?mind(?: (?:about )?(?:all (?:of )?)?(?:it|that|this))?|"
+    r"(?:scratch|drop|leave|cancel) (?:all (?:of )?)?(?:that|it)|not that)"
     r"(?=\s*(?:[^\w\s]|(?:and|then|just|please|instead|now|but|go|come|drive|check|look|take|bring)\b))|"
     r"change of plans?|on second thoughts?|i(?: have|'ve)? changed my mind|that was wrong|nope|"
     r"no(?! (?:need to (?!hurry)|need for|one|more|way|matter|longer)\b)|"

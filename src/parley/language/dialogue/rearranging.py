@@ -47,7 +47,7 @@ def rearranged(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon) 
     plan = visits(situation)
     if not plan or situation.question:
         return None
-    names = named(tokens, situation.objects, lexicon)
+    names = named(tokens, situation.places, lexicon)
     text = _with_slots(tokens, names)
     counts = not {*text.split()}.isdisjoint(_NUMBERS)  # as people count the lines of a plan on the page
     groups = [[visit] for visit in plan] if counts else _grouped(plan)
