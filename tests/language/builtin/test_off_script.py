@@ -675,11 +675,12 @@ def test_a_long_name_is_known_by_its_letter_and_whole_by_any_case(said: str, whe
         ("shout if you see smoke", True),
         ("if you see anything tell me", False),  # nothing could ever be held against that
         ("let me know when you see it", False),
+        ("look at bay A and tell me if there is water in it", False),
     ],
 )
 def test_what_is_to_be_told_when_it_is_seen_is_a_rule(said: str, kept: bool) -> None:
-    made = decided(said)
-    assert (isinstance(made, Remember) and made.told[0].is_rule) is kept
+    made = ENGINE.decide(situation(said, objects=PLACES, catalogue=SHIPPED))
+    assert any(fact.is_rule for fact in getattr(made, "told", ())) is kept
 
 
 @pytest.mark.parametrize("said", ["have a quick look at bay A", "take a good look whether bay A is empty"])

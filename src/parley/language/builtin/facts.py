@@ -169,6 +169,7 @@ def rule_of_sight(message: str, lexicon: Lexicon) -> Told | None:
     ):
         return None
     sees = rule.case[:1] == ("you",) and {*rule.case[1:2]} <= lexicon.classes["meeting"]
+    sees = sees and not {"it", "them", "there"} & {*rule.case}  # of what was spoken of before
     return _protocol(rule.case[2:], message, lexicon) if sees else None
 
 

@@ -98,7 +98,7 @@ _PLAINER: Final = (
     (re.compile(r"\b(?:can|could|would|will) you (?:please )?do me a favou?r(?: and|[,:])? ", re.I), ""),
     (re.compile(r"\bnow,? (?=(?:show|give|get|send|bring|tell)\b)", re.I), ""),
     (re.compile(r"\btake a look(?= a?round\b)", re.I), "look"),
-    (re.compile(r"\b(?:in|at) each(?: one| of (?:them|these|those))?(?=\W*$|[,.;])", re.I), "there"),
+    (re.compile(r"\b(pictures?|photos?) (?:in|at) each(?: one| of them)?(?=\W*$|[,.;])", re.I), r"\1 there"),
     (re.compile(r"\btake (her|it)s? (picture|photo)\b", re.I), r"take a \2 of \1"),
     (re.compile(r"\btake his (picture|photo)\b", re.I), r"take a \1 of him"),
     (re.compile(r"\btake their (picture|photo)s?\b", re.I), r"take a \1 of them"),
