@@ -163,6 +163,18 @@ async def test_a_told_rule_is_shown_as_what_it_becomes_and_counts_after_a_yes() 
         assert it.held == []
 
 
+async def test_a_yes_to_a_rule_needs_no_mark_and_to_go_on_is_no_yes() -> None:
+    async with crew() as it:
+        await it.say("go to the green crate")
+        it.observer.say("never go into the green crate", "A")
+        await it.question()
+        it.observer.say("carry on", "A")
+        await it.observer.until(lambda: any("as soon as you have" in x.message for x in it.observer.said))
+        assert it.held == []
+        it.observer.say("yes", "A")
+        await it.observer.until(lambda: bool(it.held), timeout_s=10)
+
+
 async def test_a_dont_is_a_rule_unless_it_is_about_what_waits_for_a_yes() -> None:
     async with crew() as it:
         waits = PlanProposal(id="p1", target="A", labels=("Go to “red crate”",), digest="d")

@@ -19,6 +19,7 @@ from parley.gate.stop_words import (
     "said",
     [
         "stop", "Stop!", "please stop, Ada", "stop at once!", "you must stop now",
+        "wrong way", "that's the wrong room", "you're too close", "that's not what I meant", "mind the step",
         "I want you to stop",
         "could you stop please", "there is smoke, stop everything", "don't stop!! no wait, stop",
         "be careful!",

@@ -295,6 +295,10 @@ class RuleTalk:
             return RuleReply(sentence("I will not drive before {robot} is told about the rule.", robot=asks))
         return self._confirmations.again(question) if question else None
 
+    def stands(self, robot: str) -> bool:
+        """Whether a robot stands until what it has asked about a rule is answered."""
+        return self._confirmations.of(robot)[1] == robot
+
     def left(self, question: str) -> RuleReply | None:
         """A question to which something else was said, once more; None if it is none of ours, or settled."""
         return self._confirmations.again(question) if self.asked(question) else None

@@ -13,8 +13,13 @@ from tests.language.builtin.worlds import situation
 ENGINE = BuiltinLanguage()
 SHIPPED = catalogue_with(None)[0].for_robot(("drive", "camera")).infos()
 ROOMS = tuple(
-    MapArea(name, ((x, 0.0), (x + 4.0, 0.0), (x + 4.0, 4.0), (x, 4.0))).goal
-    for name, x in (("yard", 0.0), ("tool store", 10.0), ("cellar", 20.0))
+    MapArea(name, ((x, 0.0), (x + 4.0, 0.0), (x + 4.0, 4.0), (x, 4.0)), capacity).goal
+    for name, x, capacity in (
+        ("yard", 0.0, None),
+        ("tool store", 10.0, None),
+        ("cellar", 20.0, None),
+        ("narrow lift", 30.0, 1),
+    )
 )
 THINGS = tuple(
     MapObject(name, name, x, 1.0)
@@ -72,3 +77,9 @@ def test_each_room_is_pictured_where_it_is() -> None:
     assert isinstance(made, Do)
     frames = [deed.frame for deed in made.deeds if not deed.hidden]
     assert frames == ["GO", "PHOTO"] * 3
+
+
+@pytest.mark.parametrize("said", ["get out of the yard", "leave the cellar", "go away from the ladder"])
+def test_who_is_sent_away_asks_where_to(said: str) -> None:
+    made = decided(said)
+    assert isinstance(made, Ask) and made.question == "Where shall I go instead?" and not made.offer

@@ -55,6 +55,10 @@ class AboutRules:
         """Whether a question, by its `id`, is one about rules."""
         return self._rules is not None and self._rules.asked(question)
 
+    def stands(self, target: str) -> bool:
+        """Whether a robot stands until what it has asked about a rule is answered."""
+        return self._rules is not None and self._rules.stands(target)
+
     def on_failure(self, failure: ErrorHandlingMessage) -> None:
         """Take in which rule forbade a step that was under way."""
         if self._rules is not None and failure.code is FailureCode.FORBIDDEN:

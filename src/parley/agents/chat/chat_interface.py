@@ -259,7 +259,7 @@ class ChatInterface(Node):
         asked: list[tuple[str, ChatFeedback | None]] = []
         hear: list[tuple[str, ChatFeedback | None]] = []
         for target in self._meant(said, control, calls=calls, refuses=refuses):
-            question = self._questions.newest(target) if said.type == "response" else None
+            question = self._question(target, said, control)
             offered = self._offered.newest(target) is not None and question is None
             wanted_back = question is None and not offered and self._gives_up(target, said, control)
             refusing = refuses and not (lets_go and self._thinking.is_at_work(target))
@@ -294,6 +294,18 @@ class ChatInterface(Node):
                 hear.append((target, question))
         self._hear_all(hear, corrected, said)
         self._hear_all(asked, (), said.model_copy(update={"message": behind}))
+
+    def _question(self, target: str, said: ChatInput, control: Control | None) -> ChatFeedback | None:
+        """The question that a message answers; yes and no to a rule for which a robot stands need no mark."""
+        asked = self._questions.newest(target)
+        marked = said.type == "response" or (
+            asked is not None
+            and control is None
+            and self._rules.stands(target)
+            and self._rules.asked(asked.id)
+            and assent_of(said.message, self._presence.names()) is not None
+        )
+        return asked if marked else None
 
     def _control_in(self, said: ChatInput) -> Control | None:
         """What a whole message means at once; "stay away from there" says so only to whoever is under way."""
@@ -405,7 +417,7 @@ class ChatInterface(Node):
         """Have a message understood; whether that is seen to for all of `team`."""
         about = said.reply_to or (question.id if question else "")
         known = self._rules.asked(about) or self._recollections.asked(about) or self._placing.asked(about)
-        ours = about if said.type == "response" and known else ""
+        ours = about if known and (said.type == "response" or question is not None) else ""
         if question is None or ours:
             self._mailboxes.post(target, self._work(target, said, ours, team))
             return True

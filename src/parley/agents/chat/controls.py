@@ -153,6 +153,8 @@ class Controls:
         """Say what was done where a robot was in `state`."""
         if control == "start" and state == "paused" and self._offered.newest(target) is not None:
             reply = together(sentence(reply), texts.STILL_ASKED)
+        if control == "start" and state != "idle" and self._rules.stands(target):
+            reply = texts.AFTER_ANSWER
         if control == "start" and (still := self._called_but_still(target, said)):
             reply = together(sentence(reply), sentence(STAND_ON, robots=", ".join(still)))
         hardly = more is None and control == "stop"

@@ -51,6 +51,7 @@ MAX_CHARS: Final = 10_000
 _QUOTED_CHARS: Final = 200
 AFTERWARDS: Final = sentence("I will do that afterwards; first I need your answer to my question.")
 """Added to the reply to an order that has to wait until a failed step is settled."""
+AFTER_ANSWER: Final = "I go on as soon as you have answered this."
 STILL_ASKED: Final = sentence("What I asked about still waits for your yes.")
 """Added when a robot goes on with its plan while something else waits."""
 

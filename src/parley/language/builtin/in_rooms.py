@@ -17,6 +17,7 @@ __all__ = ["group_of_rooms", "things_inside"]
 _INSIDE: Final = word_set("in inside within of from")
 _ALL: Final = word_set("everything all every each whole thing things object objects stuff")
 """Words by which all that is there is meant."""
+_LEAVING: Final = word_set("out away off")
 _ROOMS: Final = word_set("rooms room")
 
 
@@ -37,8 +38,9 @@ def group_of_rooms(
         left_out: What is named as left out of the set.
     """
     several = lexicon.classes["quantifiers"] & {*words} or "rooms" in words
-    if several and rooms and {*_bare(words, lexicon)} - _ALL <= _ROOMS and _ROOMS & {*words}:
-        return _without(Group(tuple(rooms)), left_out, lexicon)
+    whole = tuple(room for room in rooms if room.area is None or room.area.capacity is None)  # no passages
+    if several and whole and {*_bare(words, lexicon)} - _ALL <= _ROOMS and _ROOMS & {*words}:
+        return _without(Group(whole), left_out, lexicon)
     room, said = _room_in(words, rooms, lexicon)
     if room is None:
         return None
@@ -76,7 +78,7 @@ def _room_in(
     for at in range(1, len(words)):
         name = " ".join(word for word in words[at + 1 :] if word not in lexicon.classes["determiners"])
         room = next((one for one in rooms if one.description.lower() == name), None)
-        if words[at] in _INSIDE and room is not None:
+        if words[at] in _INSIDE and words[at - 1] not in _LEAVING and room is not None:
             return room, words[:at]
     return None, words
 

@@ -172,6 +172,16 @@ def _asked(situation: Situation, about: str) -> str:
     return f"{words}{_did(situation, about)}"
 
 
+def _said_last(situation: Situation, about: str) -> str:
+    """What the robot itself said last, once more."""
+    last = next((turn.content for turn in reversed(situation.history) if turn.role == "assistant"), "")
+    return f"I said: “{last.strip()}”" if last else "I have not said anything yet."
+
+
+def _who_am_i(situation: Situation, about: str) -> str:
+    return f"You are {situation.speaker}." if situation.speaker else "I do not know your name."
+
+
 def _before_stop(situation: Situation, about: str) -> str:
     """What was under way when somebody told it to stand still."""
     left = [step for step in _steps_left(situation) if step.state != "queued"]
@@ -592,6 +602,7 @@ _TOPICS: Final[dict[str, Callable[[Situation, str], str]]] = {
     "where_going": _where_going, "why_stopped": _why_stopped, "waiting_for": _waiting, "why_not": _why_not,
     "why_not_go": _why_not_go, "why": _why, "what_doing": _doing, "what_left": _left, "what_did": _did,
     "will_visit": _will_visit, "before_stop": _before_stop, "beside_step": _beside, "asked": _asked,
+    "said_last": _said_last, "who_am_i": _who_am_i,
     "what_seen": _seen, "what_else_seen": _else, "seen_thing": _seen_thing, "how_long": _how_long,
     "how_far": _how_far, "whats_in": _whats_in, "places": _places, "amiss": _amiss,
     "battery": _battery, "able": _able, "name": _name, "time": _time, "told_about": _told_about,

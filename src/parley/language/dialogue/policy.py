@@ -128,6 +128,9 @@ def _about_itself(heard: Heard) -> Decision | None:
         return Answer(f"{differences(asked.choices, situation.objects)} Which one do you mean?")
     if question is not None and (said := answer(question, situation)):
         return Answer(said)
+    away = _AWAY.fullmatch(bare)
+    if away is not None and _is_place(away["out"] or away["left"], heard):
+        return Ask("Where shall I go instead?")
     lost = facts.taken_back(situation, bare, heard.told_in) or facts.forgotten(situation, bare)
     if lost and bare.startswith("forget ") and any(entry.way == "seen" for entry in lost):
         named = re.fullmatch(r"forget (?!about |all |what |that |where |everything )(.+)", bare)
@@ -145,6 +148,20 @@ def _about_itself(heard: Heard) -> Decision | None:
     if is_thinking(situation.message if situation.question else bare):
         return Answer("Take your time. I wait.")
     return None
+
+
+_AWAY: Final = re.compile(
+    r"(?:get|go|come|drive|move) (?:right )?(?:out of|away from) (?P<out>.+)|leave (?P<left>.+)"
+)
+"""To be gone from somewhere, whatever the goal is."""
+
+
+def _is_place(words: str, heard: Heard) -> bool:
+    """Whether words are a room, or a thing to be gone from, and nothing else."""
+    name = re.sub(r"^(?:the|this|that|my|her|his) ", "", words)
+    return name in ("room", "house", "area", "place", "here", "there") or any(
+        name == place.description.lower() for place in heard.situation.places
+    )
 
 
 _LAST: Final = re.compile(r"^.*[,.;!–-]\s+(?=\S)", re.DOTALL)
