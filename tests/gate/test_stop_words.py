@@ -57,6 +57,13 @@ def test_a_call_to_all_is_for_all(said: str) -> None:
     assert called(said, ("Ada", "Kim")) == ("Ada", "Kim")
 
 
+@pytest.mark.parametrize(
+    "said", ["keep in mind that the gate is shut", "never mind the box", "do you mind the noise"]
+)
+def test_to_have_something_in_mind_is_no_call(said: str) -> None:
+    assert not calls_to_stop(said)
+
+
 def test_a_no_is_one_only_if_nothing_else_is_said() -> None:
     assert all(map(is_no, ("no", "No!", "no no no", "nope", "not there!", "Ei.")))
     assert not any(map(is_no, ("", "no problem", "no, go to the box", "go on", "not yet")))

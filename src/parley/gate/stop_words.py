@@ -40,7 +40,7 @@ _PHRASES: Final = (
     r"it)|look\s+out|heads\s+up|back\s+off|knock\s+it\s+off|(?:don['’]?t|do\s+not)\s+(?:(?:you|any(?:body|one))\s+)?"
     r"(?:dare\s+)?(?:move|drive|go\s+any|come\s+any)|no(?:body|\s?-?one)\s+moves?|no\s+further|"
     r"(?:the\s+)?wrong\s+(?:way|one|place|room|door|side|direction)|you(?:['’]?re|\s+are)\s+(?:\w+\s+)?too\s+close|"
-    r"not\s+what\s+i\s+(?:meant|said|wanted|asked)|mind\s+(?:the|my|your|that)|not\s+(?:another|one)\s+(?:step|inch|centimet\w+)|"
+    r"not\s+what\s+i\s+(?:meant|said|wanted|asked)|^\W*mind\s+(?:the|my|your)|not\s+(?:another|one)\s+(?:step|inch|centimet\w+)|"
     r"pea\s+kinni|jää\s+(?:seisma|paigale)|ära\s+(?:liigu|sõida)|paigal|kohe\s+seisma"
 )
 STOP_WORDS: Final = f"{_WORDS}|{_PHRASES}"

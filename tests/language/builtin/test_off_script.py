@@ -752,3 +752,20 @@ def test_what_is_begun_with_may_be_told_by_where_it_is() -> None:
     assert isinstance(made, Do)
     looked = [str(value) for deed in made.deeds if deed.frame == "LOOK" for value in deed.arguments.values()]
     assert looked == ["crate by the gate", "tall crate", "crate by the ramp"]
+
+
+def test_a_part_of_a_thing_is_looked_at_where_the_thing_is() -> None:
+    made = ENGINE.decide(situation("check the rim of the turning circle", objects=PLACES, catalogue=SHIPPED))
+    assert isinstance(made, Do)
+    told = [str(value) for deed in made.deeds for value in deed.arguments.values()]
+    assert told == ["turning circle", "rim of the turning circle"]
+
+
+@pytest.mark.parametrize(
+    ("said", "looks"),
+    [("has bay A been swept?", True), ("was bay A open?", False), ("does bay A leak?", False)],
+)
+def test_where_something_is_answers_no_question_how_it_is(said: str, looks: bool) -> None:
+    made = ENGINE.decide(situation(said, objects=PLACES, catalogue=SHIPPED))
+    assert (isinstance(made, Ask) and bool(made.offer)) is looks
+    assert "metres" not in to_chat(made, lexicon()).message_response

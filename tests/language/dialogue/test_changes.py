@@ -340,6 +340,19 @@ async def test_what_was_to_be_done_there_is_not_done_elsewhere(
     assert all_go or dropped(answer) >= {*range(1 + len(deeds))}
 
 
+async def test_what_is_looked_for_everywhere_is_looked_for_at_what_is_added_too() -> None:
+    plain = given("and the lamp", "box", "gate")
+    row = plain.dialogue.steps
+    look = PlanStep(action=doing("Look", "leaks"), label="Look for leaks")
+    plan = (*row[:2], look, *row[2:], look)
+    waits = tuple(step.action for step in plan if step.state != "finished")
+    answer = await ENGINE.interpret(
+        replace(plain, catalogue=(FIND, GO, LOOK), queue=waits, dialogue=replace(plain.dialogue, steps=plan))
+    )
+    assert [call.name for call in answer.queue] == ["Locate", "Way", "Look"], answer.message_response
+    assert goals(answer) == ["lamp"] and not dropped(answer)
+
+
 @pytest.mark.parametrize(
     ("message", "words"),
     [

@@ -63,6 +63,8 @@ def answer(
         tokens = tokenize(situation.message)
         if not told and look_asked_for(tokens, named(tokens, situation.objects, lexicon)):
             return Answer("How that is now I only see when I look there.")
+        if tokens[0].low in _NOT_WHERE and "where" not in situation.message.lower():
+            return told or Answer(_NO_ANSWER)
         return told or Answer(_lying(situation, mention.things[0]))
     if mention.kind == "several":
         return told or _among(mention.things, situation, lexicon)
@@ -151,7 +153,7 @@ def look_asked_for(tokens: Sequence[Token], names: Sequence[Named], called: Cont
         low = low[: low.index("or", 3)]
     if {*low[:1]} & _ANY and len(names) == 1:  # "anything at the gate?"
         return f"check if there is {' '.join(low)}"
-    if not {*low[:1]} & {"is", "are"} or len(names) != 1:
+    if not {*low[:1]} & {"is", "are", "has", "have"} or len(names) != 1:
         return ""
     being, rest = low[0], low[1:]
     if rest[:1] == ["there"] or (rest and rest[0] in _ANY):
@@ -170,6 +172,8 @@ def look_asked_for(tokens: Sequence[Token], names: Sequence[Named], called: Cont
     return f"check if {' '.join(subject)} {being} {' '.join(state)}"
 
 
+_NOT_WHERE: Final = word_set("was were did does do had has have")
+"""How a question begins that no place answers."""
 _OPENING: Final = word_set("so and ok okay hey please well hi hello good morning evening sorry quick listen")
 _ANY: Final = word_set("anybody anyone somebody someone anything something everything nobody all")
 _WHERE: Final = frozenset({"in", "at", "on", "inside", "under", "by", "near"})

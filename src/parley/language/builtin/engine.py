@@ -18,6 +18,7 @@ from parley.language.builtin.clauses import Clause, clauses
 from parley.language.builtin.deciding import decide
 from parley.language.builtin.decision import Answer, Ask, Decision, Do, Remember
 from parley.language.builtin.lexicon import lexicon, stem
+from parley.language.builtin.numbering import with_numbers
 from parley.language.builtin.own import OwnActions, is_promised
 from parley.language.builtin.own_words import own_words
 from parley.language.builtin.reading import Reading, read
@@ -119,7 +120,8 @@ class BuiltinLanguage:
             return Ask("I did not understand that. Please say what I should do.")
         names = _names(tuple(item.description for item in situation.objects))
         situation = replace(situation, message=self._meant(uncalled(situation, self._lexicon), names))
-        situation = replace(situation, message=in_turn(situation.message))
+        said = with_numbers(in_turn(situation.message), situation.places)
+        situation = replace(situation, message=said)
         situation = self._with_past(replace(situation, message=with_names_for_ones(situation)))
         situation = replace(situation, memory=(*situation.memory, *in_mind(situation)))
         if (taught := own_words(situation, self._lexicon, self.decide)) is not None:

@@ -209,7 +209,8 @@ class Grounder:
     def _mentioned(self, filler: Filler, mention: Mention) -> Value | Ask:
         """What is named, or a part of it; a place is the whole: no map knows its sides."""
         if mention.kind == "part" and filler.role not in "GLS":
-            return Value(mention.text, with_article(mention.text), mention.things)
+            text = as_said(mention.text, filler.text)
+            return Value(text, with_article(text), mention.things)
         if mention.kind == "part":
             self.unheeded(mention.text)
         return self._one_of(mention.things)

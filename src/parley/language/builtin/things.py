@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -44,10 +45,11 @@ def noun_phrase(words: Sequence[str], head: int, lexicon: Lexicon) -> tuple[tupl
     end = head + 1
     if end + 1 < len(words) and words[end] == "of" and words[end + 1] not in lexicon.classes["prepositions"]:
         end += 2
+        led = words[head + 2] in lexicon.classes["determiners"]  # "of the red crate"
         while (
             end < len(words)
             and words[end] not in lexicon.classes["prepositions"]
-            and words[end - 1] in ("the", "a")
+            and (led or len(words[end]) == 1 or words[end].isdigit())
         ):
             end += 1
     name = words[start:end]
@@ -86,8 +88,11 @@ def link(words: Sequence[str], head: int, objects: Sequence[MapObject], lexicon:
     part = name.index("of") if "of" in name[:-1] else 0
     if part and (not best or _rank_of(name, best[0]) > 1):
         of_whole = name[part - 1] in lexicon.classes["parts"]
-        whole = [word for word in name[part + 1 :] if word not in lexicon.classes["determiners"]]
+        whole = [*itertools.dropwhile(lexicon.classes["determiners"].__contains__, name[part + 1 :])]
         best = _best(whole if of_whole else name[:part], objects)
+        there = [] if best or of_whole else _best(whole, objects)
+        if len(there) == 1 and _rank_of(whole, there[0]) <= 1:  # of what no map knows, it is a part
+            return Mention("part", " ".join((*name, *rest)), tuple(there))
         if of_whole and len(best) == 1:
             return Mention("part", " ".join((*name, *rest)), tuple(best))
         held = name[part + 1] in lexicon.classes["determiners"]  # "the lid of the jar" is no jar

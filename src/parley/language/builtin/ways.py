@@ -89,6 +89,9 @@ class Ways(Grounder):
         """The way to what is to be looked at, if it is known where that is."""
         if thing is None or not (thing.things or thing.place or thing.point):
             return []
+        if len(thing.things) == 1 and thing.argument not in (thing.things[0].description, thing.things[0].id):
+            whole = self._one_of(thing.things)  # the way to a part is that to the whole
+            thing = whole if isinstance(whole, Value) else thing
         way = self.nearing(thing)
         return [] if isinstance(way, Ask) else way
 

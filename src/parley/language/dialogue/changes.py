@@ -226,7 +226,7 @@ def change_of(
         return None
     if takes_back or against:
         return _replaced(plan, against, for_[0], text) if len(for_) == 1 else None
-    return _put_in(plan, for_, text)
+    return _put_in(situation, plan, for_, text)
 
 
 def _is_bare(tokens: Sequence[Token], names: Sequence[Named], lexicon: Lexicon) -> bool:
@@ -435,7 +435,7 @@ def _renamed(text: str, names: set[str], target: MapObject) -> str:
     return text[:at] + target.description + text[at + len(hit) :] if hit else text
 
 
-def _put_in(plan: Sequence[Visit], wanted: Sequence[Named], text: str) -> Change | None:
+def _put_in(situation: Situation, plan: Sequence[Visit], wanted: Sequence[Named], text: str) -> Change | None:
     """A further place, at the end or before everything."""
     front = _FRONT.search(text) is not None
     if not front and _ADDING.search(text) is None:
@@ -445,7 +445,15 @@ def _put_in(plan: Sequence[Visit], wanted: Sequence[Named], text: str) -> Change
     if like is None or any(len(name.things) > 1 or name.things[0].id in planned for name in wanted):
         return None
     deed = _deed_of(plan, like)
-    calls = tuple(call for name in wanted for visit in deed for call in moved(visit, name.things[0]) or ())
+    looking = {info.name for info in situation.catalogue if "looks" in info.effects}
+    behind = itertools.takewhile(lambda visit: not visit.things, plan[plan.index(deed[-1]) + 1 :])
+    deed += [visit for visit in behind if {call.name for call in visit.calls} <= looking]  # "for leaks"
+    calls = tuple(
+        call
+        for name in wanted
+        for visit in deed
+        for call in moved(visit, name.things[0]) or (() if visit.things else visit.calls)
+    )
     names = " and ".join(called(name.things[0].description) for name in wanted)
     if front:
         return reordered(plan, [], plan, "front", calls, f"First {names}, then on with the rest.")
