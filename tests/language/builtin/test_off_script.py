@@ -769,3 +769,13 @@ def test_where_something_is_answers_no_question_how_it_is(said: str, looks: bool
     made = ENGINE.decide(situation(said, objects=PLACES, catalogue=SHIPPED))
     assert (isinstance(made, Ask) and bool(made.offer)) is looks
     assert "metres" not in to_chat(made, lexicon()).message_response
+
+
+def test_what_the_map_has_not_there_is_looked_for_there() -> None:
+    made = ENGINE.decide(situation("check all posts in bay B", objects=TWO_POSTS, catalogue=SHIPPED))
+    assert isinstance(made, Do)
+    told = [str(value) for deed in made.deeds for value in deed.arguments.values()]
+    assert told == ["bay B", "bay B for all posts"]
+
+
+TWO_POSTS = (*PLACES, MapObject("post_4", "post 4", 1.0, 9.0))

@@ -27,6 +27,8 @@ __all__ = ["Builder"]
 _LEFT_OUT_OF = "I do not know what “{}” is left out of. Can you say it otherwise?"
 _LOGIC = {"C": "a condition", "W": "a time"}
 _MOST_TIMES = 10
+_BESIDE_M = 1.0
+"""So near a thing counts as being at a place."""
 
 
 @dataclass(slots=True)
@@ -108,10 +110,21 @@ class Builder(Doing):
             return wish
         words = (*thing.words, *where.words)
         if not self.is_by_room(words):
-            return wish
+            return self._looked_for_there(wish, thing, where)
         both = replace(thing, words=words, said=f"{thing.text} {where.text}")
         rest = tuple(filler for filler in wish.fillers if filler not in (thing, where))
         return replace(wish, fillers=(*rest, both))
+
+    def _looked_for_there(self, wish: Wish, thing: Filler, where: Filler) -> Wish:
+        """Things of which the map has none at the place that is told: they are what is looked for there."""
+        at = link(where.words, where.head, self.situation.objects, self.lexicon)
+        several = self.group(thing.words)
+        if wish.frame != "LOOK" or wish.has("K") or at.kind != "one" or several is None or several.doubt:
+            return wish
+        if any(at.things[0].gap_m(item.x_m, item.y_m) <= _BESIDE_M for item in several.things):
+            return wish
+        rest = tuple(filler for filler in wish.fillers if filler is not thing)
+        return replace(wish, fillers=(*rest, replace(thing, role="K")))
 
     def _placed(self, wish: Wish) -> Wish:
         """With the place of who or what no map holds as a role of its own: "the cup on the desk"."""
