@@ -247,9 +247,9 @@ class Nodes(OpenedTogether):
         embedder = configured_embedder(settings)
         return Meanings(store, embedder, self._clock, tell=self.tell, min_alike=settings.min_alike)
 
-    def _tell_for(self, robot: str, text: str) -> None:
+    def _tell_for(self, robot: str, text: str, asks_yes: bool = False) -> None:
         """Say something on behalf of a robot, as soon as somebody is there to hear it."""
-        self._notices.tell(text, [robot])
+        self._notices.tell(text, [robot], asks_yes=asks_yes)
 
     def _on_met(self, robot: str, told: bool) -> None:
         """Say which repairs an earlier process left open, unless what it did is told already."""

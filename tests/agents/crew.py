@@ -12,6 +12,7 @@ from typing import Any, cast
 
 from parley.agents.base import Node
 from parley.agents.chat.chat_interface import ChatInterface
+from parley.agents.planner.asking import SHALL_I
 from parley.agents.planner.ordering import Judge
 from parley.agents.planner.sending import Patience
 from parley.agents.planner.umrf_planner import UmrfPlanner
@@ -368,6 +369,7 @@ async def crew(
             await party.engine(name)
         yield party
         assert transport.handler_failures == 0
+        assert [said for said in observer.said if said.message.endswith(SHALL_I) and not said.asks_yes] == []
 
 
 class ThesisEngine(Node):

@@ -63,7 +63,7 @@ def test_a_yes_means_nothing_where_nothing_waits() -> None:
 def test_a_yes_in_words_counts_once_the_robot_has_asked_about_just_that() -> None:
     waiting = offered("p1")
     assert not waiting.is_asked("Ada")
-    waiting.on_said(ChatFeedback(message="Go to the box. Shall I?", targets=("Ada",)), "Shall I?")
+    waiting.on_said(ChatFeedback(message="Go to the box?", targets=("Ada",), asks_yes=True))
     waiting.on_proposal(PlanProposal(id="p1", target="Ada"))  # told once more to who listens newly
     assert waiting.is_asked("Ada")
     waiting.on_proposal(PlanProposal(id="p2", target="Ada"))
@@ -72,7 +72,7 @@ def test_a_yes_in_words_counts_once_the_robot_has_asked_about_just_that() -> Non
 
 def test_a_question_may_be_heard_before_what_it_is_about() -> None:
     waiting = offered()
-    waiting.on_said(ChatFeedback(message="Go to the box. Shall I?", targets=("Ada",)), "Shall I?")
+    waiting.on_said(ChatFeedback(message="Go to the box?", targets=("Ada",), asks_yes=True))
     waiting.on_proposal(PlanProposal(id="p1", target="Ada"))
     assert waiting.is_asked("Ada")
     waiting.on_proposal(PlanProposal(id="p2", target="Ada"))

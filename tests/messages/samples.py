@@ -198,6 +198,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "by_step": True,
         "asks": True,
         "still_asks": "0",
+        "asks_yes": True,
         "images": [{"name": "box.jpg", "data": "AAAA"}],
     },
     chat.FlowIf: {"step": 2, "result": False},

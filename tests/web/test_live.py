@@ -204,7 +204,7 @@ async def test_what_asks_for_a_yes_does_so_until_that_is_decided() -> None:
         page = await rig.page()
         rig.robots.tell(topics.PLAN, PlanProposal(id="p1", target="Ada", steps=(ActionCall(name="Look"),)))
         await page.until(lambda: page.of("proposal"))
-        rig.robots.say("I would look. Shall I?")
+        rig.robots.say("I would look?", asks_yes=True)
         await page.until(lambda: page.of("chat"))
         rig.robots.tell(topics.PLAN, PlanUpdate(target="Ada", state="idle"))
         await page.until(lambda: len(page.of("chat")) == 2)

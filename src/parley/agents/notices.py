@@ -44,9 +44,17 @@ class Notices(Node):
         self.opened.callback(self.transport.on_endpoints_changed(self._on_change))
         self._on_change()
 
-    def tell(self, text: str, targets: Sequence[str], kind: Literal["info", "error"] = "info") -> None:
+    def tell(
+        self,
+        text: str,
+        targets: Sequence[str],
+        kind: Literal["info", "error"] = "info",
+        *,
+        asks_yes: bool = False,
+    ) -> None:
         """Say `text` on behalf of the robots `targets`."""
-        self._waiting.append(ChatFeedback(message=self.spoken(text), targets=tuple(targets), type=kind))
+        told = ChatFeedback(message=self.spoken(text), targets=tuple(targets), type=kind, asks_yes=asks_yes)
+        self._waiting.append(told)
         if self._heard:
             self._say()
 

@@ -108,6 +108,8 @@ class ChatFeedback(Payload):
     """Ours, of a `response`: an order lacks something, and whatever is said next may tell it."""
     still_asks: str = ""
     """Ours: `id` of an earlier message whose reply asked for more and may be answered yet."""
+    asks_yes: bool = False
+    """Ours: it ends by asking for a yes to what is proposed; the words are only for people."""
 
     @property
     def asks_back(self) -> bool:

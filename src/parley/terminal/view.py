@@ -20,7 +20,7 @@ from parley.messages.status import (
     StopReport,
     Trouble,
 )
-from parley.sentences import LANGUAGES, SpokenLanguage, in_language, sentence
+from parley.sentences import SpokenLanguage, in_language, sentence
 from parley.terminal.lines import Fragments, Line, LineKind
 from parley.terminal.plan import Progress, call_in_words, compare, is_over, lines_of, plan_rows, step_row
 
@@ -48,8 +48,6 @@ STOPS: Final = {
 }
 NOT_RELEASED: Final = "{robot} has not heard that it is released and stays stopped. Write /reset again."
 """`StopReport.state` in words."""
-ASKS_FOR_YES: Final = sentence("Shall I?")
-"""How a robot ends that asks for a yes to a plan."""
 _DRAFT_CHARS = 70
 
 ANSWERS_WITHIN_S = 2.0
@@ -414,8 +412,7 @@ def _hear(robot: RobotView, feedback: ChatFeedback) -> None:
     if feedback.type in ("response", "error"):
         robot.draft = ""
     if feedback.type != "info":
-        asks = tuple(in_language(ASKS_FOR_YES, language) for language in LANGUAGES)
-        robot.spoke_since = not feedback.message.rstrip().endswith(asks)
+        robot.spoke_since = not feedback.asks_yes
     if feedback.type in ("request", "response"):
         settled.add("")
     robot.pending = [

@@ -6,20 +6,17 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from parley.agents.planner.asking import SHALL_I
 from parley.gate.control import control_of
 from parley.messages.attendance import Unattended
 from parley.messages.chat import ChatFeedback, ChatImage, ChatInput, ReplyDraft
 from parley.messages.principal import Principal
 from parley.messages.repeats import Repeats
-from parley.sentences import LANGUAGES, in_language
 from parley.web.models import ChatEntry
 
 __all__ = ["KEPT_ENTRIES", "ChatBook", "Composed", "KeepPictures"]
 
 KeepPictures = Callable[[str, Sequence[ChatImage]], tuple[str, ...]]
 
-_ASKS_YES: Final = tuple(in_language(SHALL_I, language) for language in LANGUAGES)
 KEPT_ENTRIES: Final = 500
 """How many of the newest entries are held ready; older ones are in the store."""
 
@@ -196,7 +193,7 @@ class ChatBook:
                 images=self._keep_pictures(key, feedback.images) if feedback.images else (),
                 engine=_short(feedback.engine),
                 question="open" if feedback.type == "request" or feedback.asks_back else "",
-                asks_yes=feedback.message.rstrip().endswith(_ASKS_YES),
+                asks_yes=feedback.asks_yes,
                 reply_to=self._said_as.get(feedback.reply_to, feedback.reply_to),
             )
         )

@@ -76,7 +76,9 @@ class Answering:
         """Hear what the planner rules; closed with the node."""
         await self._node.subscribe(topics.RULING, PlanRuling, self._rulings.on_ruling)
 
-    def say(self, targets: Sequence[str], text: str, kind: str, reply_to: str = "") -> None:
+    def say(
+        self, targets: Sequence[str], text: str, kind: str, reply_to: str = "", *, asks_yes: bool = False
+    ) -> None:
         """Say one of our own sentences in the conversation with some robots."""
         feedback = ChatFeedback.model_validate(
             {
@@ -84,6 +86,7 @@ class Answering:
                 "targets": tuple(targets),
                 "type": kind,
                 "reply_to": reply_to,
+                "asks_yes": asks_yes,
                 "still_asks": self._known.log(targets[0]).still_asks
                 if len(targets) == 1 and reply_to
                 else "",
@@ -185,7 +188,8 @@ class Answering:
         order = order.model_copy(update={"id": uuid.uuid4().hex, "reply_to": said.id})
         for ruling in await self.submit(order, said) or ():
             if ruling.outcome == "asked":
-                self.say((name,), together(wish_of(ruling.lines, ruling.why), SHALL_I), "info")
+                text = together(wish_of(ruling.lines, ruling.why), SHALL_I)
+                self.say((name,), text, "info", asks_yes=True)
 
     async def submit(self, order: ChatAction, said: ChatInput, why: str = "") -> Sequence[PlanRuling] | None:
         """Hand an order with an id on, `why` it is this robot; what became of it, see `Rulings.about`."""
@@ -232,7 +236,8 @@ class Answering:
         known = {entry.name for entry in situation.memory}
         sources = tuple(name for name in understood.sources if name in known and name not in told)
         why = "" if failed else self._recollections.why(target, said, sources, situation.memory)
-        reply = together(reply, why, SHALL_I if asked is not None and not failed else "")
+        asks_yes = asked is not None and not failed
+        reply = together(reply, why, SHALL_I if asks_yes else "")
         left, unsettled = understood.left_open, not understood.queue and asked is None
         offers = unsettled and bool(understood.choices)
         lacks = bool(left.where) or texts.asks_back(understood.message_response)
@@ -252,6 +257,7 @@ class Answering:
                 sources=tuple(name for name in understood.sources if name in known | told),
                 choices=understood.choices if offers else (),
                 asks=asks,
+                asks_yes=asks_yes,
                 still_asks="" if asks else self._known.log(speakers[0]).still_asks,
                 reply_to=said.id,
                 engine=understood.engine,

@@ -27,7 +27,7 @@ from parley.agents.chat.recollections import Recollections
 from parley.agents.chat.situations import Situations
 from parley.agents.chat.teaching import Teaching
 from parley.agents.chat.team import TeamTalk
-from parley.agents.planner.asking import SHALL_I, Offered
+from parley.agents.planner.asking import Offered
 from parley.agents.planner.orders import no_robot
 from parley.agents.presence import ACQUAINTED_S, Presence, linked_to
 from parley.agents.questions import SeenIds, WrongAnswers
@@ -456,7 +456,7 @@ class ChatInterface(Node):
 
     def _on_said(self, feedback: ChatFeedback) -> None:
         self._known.on_feedback(feedback)
-        self._offered.on_said(feedback, self.spoken(SHALL_I))
+        self._offered.on_said(feedback)
 
     def _set_aside(self, target: str, said: ChatInput) -> bool:
         """Whether a message is only about an older one that takes long; else tell that it waits behind it."""

@@ -203,7 +203,7 @@ class Controls:
             self._node.publish(topics.PLAN_DECISION, decision)
             return True
         text = together(wish_of(offered.lines, offered.why), SHALL_I)
-        self._answering.say((target,), text, "response", said.id)
+        self._answering.say((target,), text, "response", said.id, asks_yes=True)
         return False
 
     def tells_apart(self, said: ChatInput, control: Control | None) -> bool:

@@ -109,4 +109,4 @@ class Finds:
         for ruling in await self._answering.submit(order, said) or ():
             if ruling.outcome == "asked":
                 text = together(wish_of(ruling.lines, ruling.why), SHALL_I)
-                self._answering.say((part.robot,), text, "info")
+                self._answering.say((part.robot,), text, "info", asks_yes=True)

@@ -294,7 +294,7 @@ class Missions:
         for name in robots:
             self._known.note(name, said.message, reply)
             self._decided[name] = _Decided(said.message, given, before[name])
-        self._say(robots, reply, said)
+        self._say(robots, reply, said, asks_yes=bool(asked))
 
     def _follow(self, said: ChatInput, mission: Mission, ids: Mapping[str, str]) -> None:
         """Let it be seen as one, from before the first robot hears of it."""
@@ -418,11 +418,12 @@ class Missions:
         choices: Sequence[str] = (),
         *,
         asks: bool = False,
+        asks_yes: bool = False,
     ) -> bool:
         """Say something, which answers a message."""
         feedback = ChatFeedback(
             message=self._node.spoken(text), targets=tuple(robots), type="response", choices=tuple(choices),
-            asks=asks, reply_to=said.id,
+            asks=asks, asks_yes=asks_yes, reply_to=said.id,
         )  # fmt: skip
         self._node.publish(topics.CHAT_FEEDBACK, feedback)
         return True

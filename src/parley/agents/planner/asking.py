@@ -130,15 +130,10 @@ class Offered:
         if update.state == "idle":
             self._waiting.pop(update.target, None)
 
-    def on_said(self, feedback: ChatFeedback, asking: str) -> None:
-        """A robot speaks: a yes counts for what it said last, so only if that was the question.
-
-        Args:
-            feedback: What it says.
-            asking: How the question ends that asks for a yes to a plan.
-        """
+    def on_said(self, feedback: ChatFeedback) -> None:
+        """A robot speaks: a yes counts for what it said last, so only if that was the question."""
         for target in feedback.targets:
-            asked = self._asked[target] = feedback.message.rstrip().endswith(asking)
+            asked = self._asked[target] = feedback.asks_yes
             (self._early.add if asked and self.newest(target) is None else self._early.discard)(target)
 
     def is_asked(self, target: str) -> bool:

@@ -65,7 +65,7 @@ class Commands:
                 if waiting and (
                     repairs or not plan.pending
                 ):  # a yes is bound to what was shown, going on is not
-                    return [Say(together(wish_of(waiting[-1].lines), SHALL_I))]
+                    return [Say(together(wish_of(waiting[-1].lines), SHALL_I), asks_yes=True)]
                 self._plans.held_by.pop(plan.target, None)
                 return left or plan.start()
             case "clear":

@@ -78,6 +78,7 @@ class Say:
 
     text: str
     type: Literal["info", "error"] = "info"
+    asks_yes: bool = False
 
 
 Effect = (

@@ -266,7 +266,8 @@ class Ordering:
             proposal = self._proposals.propose(
                 plan, order, calls, asked, repairs=None if clears or not calls else failed
             )
-            self._plans.say(plan.target, together(wish_of(proposal.lines, proposal.why), SHALL_I), "info")
+            text = together(wish_of(proposal.lines, proposal.why), SHALL_I)
+            self._plans.say(plan.target, text, "info", asks_yes=True)
         else:
             self._plans.send(plan, plan.give_up())
 

@@ -94,7 +94,7 @@ class Proposals:
     def ask_instead(self, plan: TargetPlan, shown: PlanProposal, why: str = "") -> None:
         """Say what waits by now in the place of what was agreed to."""
         text = together(orders.NOT_AS_SHOWN, wish_of(shown.lines, why), SHALL_I)
-        self._plans.say(plan.target, text, "info")
+        self._plans.say(plan.target, text, "info", asks_yes=True)
 
     def settle(self, plan: TargetPlan) -> None:
         """Ask no longer about what is over: failures that were repaired, changes of steps that have ended."""

@@ -49,7 +49,8 @@ class Relay:
         why = sentence("I cannot tell when what comes before it is done")
         bare = order.model_copy(update={"after": (), "by": by})
         proposal = self._proposals.propose(plan, bare, calls, why=why)
-        self._plans.say(plan.target, together(wish_of(proposal.lines, proposal.why), SHALL_I), "info")
+        text = together(wish_of(proposal.lines, proposal.why), SHALL_I)
+        self._plans.say(plan.target, text, "info", asks_yes=True)
         return None
 
     def _robot(self, order: str) -> str:

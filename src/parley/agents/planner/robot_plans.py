@@ -53,7 +53,8 @@ class RobotPlans:
         known_robots: Robots that send no heartbeat of ours (a TeMoto engine).
         approvals: What waits for a yes.
         patience: How long an engine is waited for.
-        tell: Gets a robot and what it has to say by itself; None says it at once, to whoever listens.
+        tell: Gets a robot, what it has to say by itself and whether that asks for a yes; None says it at
+            once, to whoever listens.
         objects: The things a robot's map knows, by the robot's name.
         met: Gets a robot whose engine said what is unfinished, and whether there was anything to say of it.
     """
@@ -66,7 +67,7 @@ class RobotPlans:
         known_robots: Sequence[str],
         approvals: Offers,
         patience: Patience,
-        tell: Callable[[str, str], None] | None,
+        tell: Callable[[str, str, bool], None] | None,
         objects: Callable[[str], Sequence[MapObject]],
         met: Callable[[str, bool], None],
     ) -> None:
@@ -85,7 +86,7 @@ class RobotPlans:
         self.held_by: dict[str, Principal] = {}
         """Who told each robot to stand still, until it goes on."""
         self.questions, self.left = OpenQuestions(), LeftGraphs()
-        self._tell = tell or (lambda robot, text: self.say(robot, text, "info"))
+        self._tell = tell or (lambda robot, text, asks_yes: self.say(robot, text, "info", asks_yes=asks_yes))
         self._welcome = Welcome(
             node, self.presence.on_status, self._take_up, self._tell, self._on_arrival, met
         )
@@ -169,7 +170,7 @@ class RobotPlans:
             if proposal is not None:
                 self._node.publish(topics.PLAN, proposal)
             self.send(self.plan(robot), [])
-            self._tell(robot, text)
+            self._tell(robot, text, proposal is not None)
 
     # -- who is there ----------------------------------------------------------------------------------
 

@@ -98,8 +98,8 @@ class PlanSender:
                 self._later(self._patience.result_s, plan, lambda: plan.reports.on_no_result(name))
             case ReportFailure(message):
                 self._node.publish(topics.ERROR_HANDLING, message)
-            case Say(text, kind):
-                self.say(plan.target, text, kind)
+            case Say(text, kind, asks_yes):
+                self.say(plan.target, text, kind, asks_yes=asks_yes)
 
     def _later(self, seconds: float, plan: TargetPlan, look: Callable[[], list[Effect]]) -> None:
         """Look again after some wall time; `look` decides whether anything is still amiss."""
@@ -110,9 +110,11 @@ class PlanSender:
 
         self._node.spawn(wait(), name=f"deadline {plan.target}")
 
-    def say(self, target: str, text: str, kind: Literal["response", "info", "error"]) -> None:
+    def say(
+        self, target: str, text: str, kind: Literal["response", "info", "error"], *, asks_yes: bool = False
+    ) -> None:
         """Say one of our own sentences for a robot."""
-        said = ChatFeedback(message=self._node.spoken(text), targets=(target,), type=kind)
+        said = ChatFeedback(message=self._node.spoken(text), targets=(target,), type=kind, asks_yes=asks_yes)
         self._node.publish(topics.CHAT_FEEDBACK, said)
 
     def refuse(self, what: str, target: str, problems: Sequence[Problem]) -> None:

@@ -47,7 +47,8 @@ class UmrfPlanner(Node):
         policies: Robots for which that is otherwise.
         patience: How long an engine is waited for.
         proposals: Keeps what waits for a yes over restarts; None keeps it only while this process lives.
-        tell: Gets a robot and what it has to say by itself; None says it at once, to whoever listens.
+        tell: Gets a robot, what it has to say by itself and whether that asks for a yes; None says it at
+            once, to whoever listens.
         objects: The things a robot's map knows, by the robot's name.
         judge: What the rules say about steps; None: there are none.
         begin_for: Told on whose account a robot acts from now on.
@@ -67,7 +68,7 @@ class UmrfPlanner(Node):
         policies: Mapping[str, Policy] = MappingProxyType({}),
         patience: Patience | None = None,
         proposals: ProposalStore | None = None,
-        tell: Callable[[str, str], None] | None = None,
+        tell: Callable[[str, str, bool], None] | None = None,
         objects: Callable[[str], Sequence[MapObject]] = lambda _: (),
         judge: Judge | None = None,
         begin_for: BeginFor = lambda *_: None,

@@ -36,7 +36,7 @@ class Welcome:
         node: Whose transport.
         come: Gets each heartbeat; of a robot that `is_asked` at that moment `arrived` follows.
         take: Takes up one run.
-        tell: Gets a robot and what it has to say by itself.
+        tell: Gets a robot, what it has to say by itself, and whether that asks for a yes.
         arrived: Gets a robot with its graphs and their states, once it has answered; None: it did not.
         met: Gets a robot whose engine has answered, and whether there was anything to say of it.
     """
@@ -46,7 +46,7 @@ class Welcome:
         node: Node,
         come: Callable[[ActorStatus], None],
         take: Taken,
-        tell: Callable[[str, str], None],
+        tell: Callable[[str, str, bool], None],
         arrived: Callable[[str, dict[str, str] | None], None],
         met: Callable[[str, bool], None],
     ) -> None:
@@ -100,7 +100,7 @@ class Welcome:
         self._asked.discard(actor)
         self._arrived(actor, graphs)
         for text in texts:
-            self._tell(actor, text)
+            self._tell(actor, text, False)
         if graphs is not None:
             self._met(actor, bool(texts))
         answered, self._answered = self._answered, asyncio.Event()
