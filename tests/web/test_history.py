@@ -6,6 +6,8 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from typing import Any
 
+import pytest
+
 from parley.agents.audit_log import AuditLog
 from parley.errors import FailureCode
 from parley.gate.audit_store import AuditStore
@@ -126,6 +128,65 @@ async def test_what_was_wished_while_it_went_on_stands_beside_what_was_wished_fi
         await rig.heard()
         (again, _) = (await rig.http.get("/api/history")).json()["rounds"]
         assert (again["words"], again["by"], again["steps"]) == ("", "Kim (page on a phone)", ["Inspect"])
+
+
+@pytest.mark.parametrize("anew", ["two", "one"])
+async def test_what_was_given_up_and_put_back_is_one_round_with_all_that_was_done(anew: str) -> None:
+    async with logged() as rig:
+
+        async def tell(name: str, state: str, **steps: str) -> None:
+            shown = [
+                {"action": LOOK.model_dump(), "id": what, "label": what, "state": step, "order": "o"}
+                for what, step in steps.items()
+            ]
+            told = {"target": "Ada", "graph_name": name, "state": state, "steps": shown}
+            rig.robots.tell(topics.PLAN, PlanUpdate.model_validate(told))
+            await rig.heard()
+
+        async def rounds(query: str = "") -> list[dict[str, Any]]:
+            return list((await rig.http.get(f"/api/history?{query}")).json()["rounds"])
+
+        rig.robots.tell(topics.CHAT_INPUT, ChatInput(id="o", message="all three", targets=("Ada",), by=KIM))
+        rig.robots.tell(topics.CHAT_ACTION, ChatAction(queue=(LOOK,), targets=("Ada",), reply_to="o", id="o"))
+        await tell("one", "running", box="running", door="queued", lamp="queued")
+        graph(rig, "one", "RUNNING", BEGAN_MS)
+        incident = Incident(
+            id="1", code=FailureCode.ATTENTION, message="A bag.", robot="Ada", graph_name=anew, step=LOOK
+        )
+        await tell("one", "running", box="finished", door="running", lamp="queued")
+        skips = anew == "one"  # of a plan that has run dry
+        if skips:
+            await tell("one", "idle", box="finished", door="skipped", lamp="skipped")
+        else:
+            await tell("", "idle", box="finished", door="stopped", lamp="stopped")
+        (left,) = await rounds()
+        assert (left["state"], left["left"]) == ("partly" if skips else "ended", ["door", "lamp"])
+
+        put_back = PlanDecision(
+            target="Ada", decision="edit", steps=(LOOK, LOOK), undoes=("door", "lamp"), by=person("Ann")
+        )
+        rig.robots.tell(topics.PLAN_DECISION, put_back)
+        done = {"box": "finished"} if skips else {}
+        await tell(anew, "running", **done, door="running", lamp="queued")
+        graph(rig, anew, "RUNNING", BEGAN_MS + 10_000)
+        rig.robots.tell(topics.INCIDENT, incident)
+        await rig.heard()
+        (goes_on,) = await rounds()
+        assert (goes_on["number"], goes_on["state"]) == (left["number"], "running")
+        await tell(anew, "idle", **done, door="finished", lamp="finished")
+        await rig.heard()
+        (whole,) = await rounds()
+        assert (whole["number"], whole["words"], whole["state"]) == (left["number"], "all three", "done")
+        assert (whole["steps"], whole["left"], whole["found"]) == (["box", "door", "lamp"], [], ["A bag."])
+        assert whole["by"] == "Kim (page on a phone)"
+        assert await rounds("q=three") == [whole] == await rounds("q=lamp")
+        told = (await rig.http.get("/api/history/handover?since=1")).json()
+        assert [one["number"] for one in told["rounds"]] == [whole["number"]]
+        file = (await rig.http.get(f"/api/history/file?number={whole['number']}")).text
+        assert "It was done." in file
+        await order(rig, "three", "look at the door", BEGAN_MS + 20_000)  # and nothing else goes on with it
+        await rig.heard()
+        assert [one["words"] for one in await rounds()] == ["look at the door", "all three"]
 
 
 async def test_how_long_it_took_counts_neither_the_wait_for_an_answer_nor_standing_still() -> None:

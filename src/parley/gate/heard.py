@@ -14,7 +14,7 @@ from parley.gate.cards import labels_of, lines_of
 from parley.gate.ruling import EFFECT_OF
 from parley.gate.table import Effect, verdict
 from parley.gate.work_time import WorkTime
-from parley.latest import Latest
+from parley.latest import KEPT, Latest
 from parley.messages.audit import AuditEvent
 from parley.messages.chat import ActionCall, ChatAction, ChatInput, Press
 from parley.messages.failure import FailureReport
@@ -61,6 +61,10 @@ class Heard:
         """What made each robot's newest plan, as facts of an event."""
         self._plans: Latest[str, PlanUpdate] = Latest()
         self._running: Latest[str, dict[str, Any]] = Latest()
+        self._begun: Latest[str, dict[str, Any]] = Latest()
+        """The same of what is over, too."""
+        self._graphs: Latest[str, str] = Latest(10 * KEPT)
+        """Robot and id of a step -> the graph in which it was to be done first."""
         self._works: Latest[str, WorkTime] = Latest()
         self._memories: Latest[str, tuple[Principal | None, str]] = Latest()
         self._stops: Latest[str, StopCommand] = Latest()
@@ -128,6 +132,9 @@ class Heard:
             self.robots.add(told.target)
             before = self._plans.get(told.target) or told
             self._plans[told.target] = told
+            for key in (f"{told.target}\n{step.id}" for step in told.steps if told.graph_name and step.id):
+                if key not in self._graphs:
+                    self._graphs[key] = told.graph_name
             if work := self._works.get(f"{told.target}\n{told.graph_name}"):
                 work.on_steps(told.steps)
             last = told if told.graph_name == before.graph_name else before
@@ -135,7 +142,10 @@ class Heard:
                 return []
             key = f"{last.target}\n{last.graph_name}"
             facts, worked = self._running.pop(key, None), self._worked(key)
-            return [_over(last, facts, {**worked, **self._done(last.steps)})] if facts else []
+            if not facts:
+                return []
+            state = _state_of(last)
+            return [_over(last, state, facts, {**worked, **self._done(last.steps, facts, state)})]
         if self._proposals.get(told.id) is not None:
             return []
         self._proposals[told.id] = told
@@ -162,8 +172,11 @@ class Heard:
             detail["labels"] = shown
         allowed = verdict(decision.by, effect) == "allow"
         if allowed and effect in (Effect.APPROVE, Effect.EDIT):
+            graphs = (self._graphs.get(f"{decision.target}\n{step}", "") for step in decision.undoes)
+            put_back = next(filter(None, graphs), "")
             told = self._orders.get(decision.target) if self._carries_out(decision) else None
             order = told or {"by": decision.by, "detail": {}}
+            order = {**order, "continues": put_back}
             approved = {"approved_by": decision.by.model_dump()} if decision.by else {}
             facts = {**order["detail"], **approved}
             self._orders[decision.target] = {
@@ -217,8 +230,14 @@ class Heard:
         order = self._orders.get(event.actor) or {"by": None, "detail": {}}
         plan = self._plans.get(event.actor)
         told = labels(plan.steps) if plan and plan.graph_name == event.graph_name else order.get("labels", [])
-        detail = {"graph": event.graph_name, "labels": told, **order["detail"]}
-        self._running[key] = {"by": order["by"], "detail": detail, "digest": order.get("digest", "")}
+        # What was put back goes on with what it was taken out of, on the account of who wanted that.
+        continues = event.graph_name if key in self._begun else order.get("continues", "")
+        before = self._begun.get(f"{event.actor}\n{continues}") or order
+        detail = {**order["detail"], **before["detail"], "graph": event.graph_name, "labels": told}
+        if continues:
+            detail["continues"] = continues
+        facts = {"digest": "", "orders": (), **before, "detail": detail}
+        self._running[key] = self._begun[key] = order = facts
         self._works[key] = WorkTime()
         return AuditEvent(
             effect="start", by=order["by"], robot=event.actor, detail=detail, digest=order.get("digest", ""),
@@ -234,7 +253,7 @@ class Heard:
         plan = self._plans.get(event.actor)
         detail = {**facts["detail"], "state": event.state, **worked}
         if plan and plan.graph_name == event.graph_name and plan.steps:
-            detail |= self._done(plan.steps)
+            detail |= self._done(plan.steps, facts, event.state)
         failed = event.state == "ERROR" or event.result == "on_error"
         return AuditEvent.model_validate(
             {"effect": "end", "by": facts["by"], "robot": event.actor, "detail": detail,
@@ -303,10 +322,12 @@ class Heard:
         reason = " ".join(problem.message for problem in told.problems)
         return [AuditEvent(effect=effect, robot=told.target, outcome="refused", reason=reason, detail=detail)]
 
-    def _done(self, steps: Sequence[PlanStep]) -> dict[str, Any]:
+    def _done(self, steps: Sequence[PlanStep], facts: dict[str, Any], state: str) -> dict[str, Any]:
         """What the steps were, which were left out, and all that was wished, not only what was at first."""
-        left = labels(left_out(steps))
-        orders = dict.fromkeys(step.order for step in steps if step.order)
+        left = labels(left_out(steps, ended_early=state == "STOPPED"))
+        facts["orders"] = orders = dict.fromkeys(
+            (*facts["orders"], *(step.order for step in steps if step.order))
+        )
         wishes = _in_a_row([*dict.fromkeys(words for one in orders if (words := self._wishes.get(one)))])
         more = {"asked": wishes} if wishes else {}
         return {"labels": labels(steps), **({"left": left} if left else {}), **more}
@@ -321,13 +342,19 @@ def labels(steps: Sequence[ActionCall] | Sequence[PlanStep]) -> list[str]:
     return [_label(step) for step in steps if not _is_hidden(step)]
 
 
-def left_out(steps: Sequence[PlanStep]) -> list[PlanStep]:
-    """What was left out, but for what a condition excluded, and for what was only put off and done later."""
+def left_out(steps: Sequence[PlanStep], *, ended_early: bool = False) -> list[PlanStep]:
+    """What was left out, but for what a condition excluded, and for what was only put off and done later.
+
+    Args:
+        steps: The plan at its end.
+        ended_early: Whether somebody ended it, so that what was not over is left out as well.
+    """
     left = []
     for at, step in enumerate(steps):
         later = {_label(other) for other in steps[at + 1 :] if other.state == "finished"}
         excluded = step.action.flow is not None and step.action.flow.if_ is not None
-        if step.state == "skipped" and not excluded and _label(step) not in later:
+        out = step.state == "skipped" or (ended_early and step.state not in ("finished", "failed"))
+        if out and not excluded and _label(step) not in later:
             left.append(step)
     return left
 
@@ -359,11 +386,16 @@ def _labels_of(proposal: PlanProposal) -> list[str]:
     return list(proposal.lines) or labels(proposal.steps)
 
 
-def _over(plan: PlanUpdate, facts: dict[str, Any], done: dict[str, Any]) -> AuditEvent:
-    """The end of a plan, by what became of its steps."""
+def _state_of(plan: PlanUpdate) -> str:
+    """How a plan ended, by what became of its steps."""
     states = {step.state for step in plan.steps}
-    failed = "failed" in states
-    state = "ERROR" if failed else "FINISHED" if states <= {"finished", "skipped"} else "STOPPED"
+    ended = "FINISHED" if states <= {"finished", "skipped"} else "STOPPED"
+    return "ERROR" if "failed" in states else ended
+
+
+def _over(plan: PlanUpdate, state: str, facts: dict[str, Any], done: dict[str, Any]) -> AuditEvent:
+    """The end of a plan."""
+    failed = state == "ERROR"
     detail = {**facts["detail"], "state": state, **done}
     return AuditEvent(
         effect="end", by=facts["by"], robot=plan.target, detail=detail, digest=facts["digest"],

@@ -28,29 +28,40 @@ _OVER: Final = frozenset({"idle", "ended"})
 
 def rounds_of(
     starts: Sequence[AuditEntry],
-    ends: Iterable[AuditEntry],
+    others: Iterable[AuditEntry],
     running: frozenset[Graph],
     incidents: Sequence[Incident] = (),
     language: SpokenLanguage = "en",
 ) -> list[RoundView]:
-    """Every beginning with its end.
+    """Every beginning with its end, newest first; what was given up and put back is one round.
 
     Args:
         starts: Entries of the log with which robots began.
-        ends: Entries with which they came to an end.
+        others: Entries with which they came to an end, or went on with what was put back.
         running: What robots do just now; of what has no end and does not run, the end was never heard.
         incidents: What went wrong or needed a person, newest first.
         language: Of who it was.
     """
-    ended = {_graph(entry): entry for entry in ends}
-    rounds = [_round(entry, ended.get(_graph(entry)), _graph(entry) in running, language) for entry in starts]
+    rounds: dict[Graph, list[AuditEntry]] = {}
+    whole: dict[Graph, Graph] = {}
+    entries = {entry.number: entry for entry in (*starts, *others)}
+    for _, entry in sorted(entries.items()):
+        graph = _graph(entry)
+        before = (entry.robot, str(entry.detail.get("continues") or graph[1]))
+        whole.setdefault(graph, whole.get(before, before))
+        rounds.setdefault(whole[graph], []).append(entry)
     found: dict[Graph, list[str]] = {}
     for one in reversed(incidents):
+        graph = (one.robot, one.graph_name)
         if one.code is FailureCode.ATTENTION:
-            found.setdefault((one.robot, one.graph_name), []).append(in_language(one.message, language))
+            found.setdefault(whole.get(graph, graph), []).append(in_language(one.message, language))
+    shown = {entry.number for entry in starts}
     return [
-        view.model_copy(update={"found": tuple(dict.fromkeys(found.get(_graph(entry), ())))})
-        for entry, view in zip(starts, rounds, strict=True)
+        _round(entries, running, language).model_copy(
+            update={"found": tuple(dict.fromkeys(found.get(graph, ())))}
+        )
+        for graph, entries in sorted(rounds.items(), key=lambda one: one[1][0].number, reverse=True)
+        if entries[0].number in shown
     ]
 
 
@@ -110,10 +121,10 @@ def told_lines(entries: Iterable[AuditEntry], language: SpokenLanguage) -> tuple
     return tuple((entry.unix_ms, in_language(told(entry), language)) for entry in people)
 
 
-def _round(
-    start: AuditEntry, end: AuditEntry | None, is_running: bool, language: SpokenLanguage
-) -> RoundView:
-    last = end or start
+def _round(entries: Sequence[AuditEntry], running: frozenset[Graph], language: SpokenLanguage) -> RoundView:
+    """One round, of its first beginning and all that came of it."""
+    start, last = entries[0], entries[-1]
+    end = last if last.effect == "end" else None
     by = _principal(start.detail.get("asked_by")) or start.by
     approved = _principal(start.detail.get("approved_by"))
     return RoundView(
@@ -124,17 +135,32 @@ def _round(
         approved_by=in_language(who_of(approved), language) if approved else "",
         unix_ms=start.unix_ms,
         ended_unix_ms=end.unix_ms if end else 0,
-        worked_ms=_worked_ms(end),
-        state=_state(end, is_running),
-        steps=_texts(last, "labels", language),
+        worked_ms=_worked_ms(entries) if end else None,
+        state=_state(end, any(_graph(entry) in running for entry in entries)),
+        steps=_all_steps(entries, language),
         left=_texts(last, "left", language),
         reason=in_language(end.reason, language) if end else "",
     )
 
 
-def _worked_ms(end: AuditEntry | None) -> int | None:
-    found = end.detail.get("worked_ms") if end else None
-    return found if isinstance(found, int) else None  # logs of before do not hold it
+def _worked_ms(entries: Iterable[AuditEntry]) -> int | None:
+    found = [ms for entry in entries if isinstance(ms := entry.detail.get("worked_ms"), int)]
+    return sum(found) if found else None  # logs of before do not hold it
+
+
+def _all_steps(entries: Sequence[AuditEntry], language: SpokenLanguage) -> tuple[str, ...]:
+    """What was done before something was put back, and then that."""
+    steps: list[str] = []
+    for at, entry in enumerate(entries):
+        later = {_graph(other) for other in entries[at + 1 :]}
+        if _graph(entry) in later:
+            continue  # it tells more
+        mine = [*reversed(_texts(entry, "labels", language))]
+        for out in _texts(entry, "left" if entry.effect == "end" else "labels", language) if later else ():
+            if out in mine:
+                mine.remove(out)
+        steps += reversed(mine)
+    return tuple(steps)
 
 
 def _state(end: AuditEntry | None, is_running: bool) -> RoundState:

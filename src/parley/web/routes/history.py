@@ -109,11 +109,13 @@ async def _rounds(
     if not starts:
         return [], True
     span = {"since_unix_ms": starts[-1].unix_ms, "until_unix_ms": starts[0].unix_ms + _LONGEST_MS}
-    ends = (await ask_log(web, GetAudit(effect="end", robot=wanted.robot, limit=_MOST + 1, **span))).entries
+    since = GetAudit(robot=wanted.robot, limit=_MOST + 1, **span)
+    told = [await ask_log(web, since.model_copy(update={"effect": effect})) for effect in ("start", "end")]
+    others = [entry for one in told for entry in one.entries]
     complete = len(starts) < wanted.limit
     shown = starts if complete or wanted.limit == 1 else starts[:-1]
     incidents = (await ask_incidents(web, GetIncidents(robot=wanted.robot, limit=_MOST))).incidents
-    rounds = rounds_of(shown, ends, running_graphs(web.state), incidents, language)
+    rounds = rounds_of(shown, others, running_graphs(web.state), incidents, language)
     return [await _with_pictures(web, one) for one in rounds if keep(one)], complete
 
 
