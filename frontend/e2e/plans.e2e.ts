@@ -112,7 +112,9 @@ describe.skipIf(!hasBrowser)('an operator with a plan', () => {
     await page.getByRole('option', { name: 'Look with the camera: …' }).click();
     await page.getByRole('button', { name: 'Save' }).click();
     const notes = page.getByRole('region', { name: 'Notes' });
-    await notes.getByText(/^I cannot do step 5, “Look with the camera: …”: something that it needs is not given/).waitFor(); // as numbered there
+    const impossible = notes.getByText(/^I cannot do step 5, “Look with the camera: …”: something that it needs is not given/); // as numbered there
+    await impossible.waitFor();
+    expect(await impossible.evaluate(coveredBy), 'what lies under the note').toEqual([]);
     expect(await notes.getByText('The plan was changed.').count()).toBe(0);
     for (let dropped = 0; dropped < 2; dropped += 1) await page.getByRole('row').last().getByRole('button', { name: /^Remove/ }).click();
     await page.getByRole('button', { name: 'Save' }).click();

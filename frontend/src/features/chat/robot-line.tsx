@@ -78,6 +78,6 @@ function Worked({ step }: { step: StepView }) {
   const now = useNow(SECOND_MS);
   const leftMs = step.ends_unix_ms - onServerClock(now);
   const isTelling = leftMs > 0;
-  const time = span(isTelling ? leftMs : step.worked_ms + onServerClock(now) - step.working_since_unix_ms);
+  const time = span(isTelling ? Math.max(leftMs, SECOND_MS) : step.worked_ms + onServerClock(now) - step.working_since_unix_ms);
   return <time aria-label={t(isTelling ? 'toGoLong' : 'since', { time })}>{isTelling ? t('toGo', { time }) : time}</time>;
 }
