@@ -137,6 +137,8 @@ describe.skipIf(!hasBrowser)('an operator with a plan', () => {
     await notes.getByRole('button', { name: 'Undo' }).click();
     await expect.poll(shown, { timeout: PATIENCE_MS }).toEqual(before);
     expect(await page.getByText('I could not do that').count()).toBe(0);
+    const { rounds } = await stage.get<{ rounds: { words: string; state: string }[] }>('history');
+    expect(rounds.filter(({ words }) => words === TASK).map(({ state }) => state)).toEqual(['running']); // it was one order
   });
 
   it('presses twice in a hurry, or at once with somebody else, and does it once', async () => {

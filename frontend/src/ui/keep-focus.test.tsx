@@ -30,3 +30,14 @@ it.each([true, false])('stays in the part whose button went away (a place to wri
   await vi.waitFor(() => expect(document.activeElement).toBe(place));
   end();
 });
+
+it('goes to the page where all that was around it went away', async () => {
+  const end = keepFocus();
+  const box = render(<Part home={false} />);
+  render(<main tabIndex={-1} />);
+  act(() => screen.getByRole('button').focus());
+  box.unmount();
+  box.container.remove();
+  await vi.waitFor(() => expect(document.activeElement).toBe(screen.getByRole('main')));
+  end();
+});

@@ -1,6 +1,6 @@
 /**
  * Keeps the keyboard near where it was when what had it goes away or can no longer be used: in the nearest part that is
- * still there, at its place for writing (`data-home`) or at the part itself. It never falls out of the page.
+ * still there, at its place for writing (`data-home`) or at the part itself, else at the page. It never falls out of that.
  */
 const OWN_TURN_MS = 50;
 
@@ -43,5 +43,5 @@ function homeOf(parts: readonly Element[]): HTMLElement | null {
     const home = part.querySelector<HTMLElement>('[data-home]:not(:disabled)') ?? part.closest<HTMLElement>('[tabindex]');
     if (home) return home;
   }
-  return null;
+  return document.querySelector('main'); // of what is another page by now, nothing is left
 }
