@@ -56,6 +56,23 @@ describe('a plan that is being changed', () => {
     expect(names()).toEqual(['One', 'Two', 'Three', 'Four']);
   });
 
+  it('is said to be over as soon as somebody else has given it up, and then for nobody to change', async () => {
+    const steps = named('One', 'Two');
+    told([plan({ robot: 'Ada', revision: 4, state: 'paused', steps })]);
+    render(<PlanPanel />);
+    const user = userEvent.setup();
+    await user.click(screen.getByRole('button', { name: 'Change' }));
+    await user.click(screen.getByRole('button', { name: 'Remove “Two”' }));
+    expect(screen.queryByText(/there is nothing to change any more/)).toBeNull();
+    told([plan({ robot: 'Ada', revision: 5, state: 'idle', steps: [] })]);
+    screen.getByText(/there is nothing to change any more/);
+    answers['plans/Ada/steps'] = { refused: 'The plan has changed meanwhile.', status: 409 };
+    await user.click(screen.getByRole('button', { name: 'Save' }));
+    await vi.waitFor(() => expect(screen.queryByRole('grid')).toBeNull());
+    expect(useToasts.getState().toasts.map(({ message }) => message)).toEqual([expect.stringMatching(/there is nothing to change any more/)]);
+    screen.getByText('Ada has nothing to do.');
+  });
+
   it('is not drawn anew whenever the robot drives on: a long one could not be changed for that', async () => {
     const [one, ...rest] = named('One', 'Two', 'Three');
     if (!one) throw new Error('there are three');

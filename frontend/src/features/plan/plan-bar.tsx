@@ -3,9 +3,11 @@ import { useTranslation } from 'react-i18next';
 import type { Line } from '@/live/lines';
 import { useLive, useWorld } from '@/live/store';
 import type { PlanView } from '@/live/types';
+import { Empty } from '@/ui/panel';
 
 import { PlanControls } from './plan-controls';
 import css from './plan-panel.module.css';
+import { ENDED } from './use-saving';
 
 interface Props {
   plan: PlanView;
@@ -45,4 +47,24 @@ function Away({ robot }: { robot: string }) {
 function HeldBy({ by }: { by: PlanView['held_by'] }) {
   const { t } = useTranslation('plan');
   return by?.name ? <p>{t('heldBy', { who: by.name })}</p> : null;
+}
+
+/** That there is nothing to do, or where it is being changed nothing to change any more. */
+export function Over({ plan, isEdited, waiting }: { plan: PlanView; isEdited: boolean; waiting: number }) {
+  const { t } = useTranslation('plan');
+  if (isEdited) {
+    return (
+      ENDED.includes(plan.state) && (
+        <p role="status" className={css.over}>
+          {t('conflictOver')}
+        </p>
+      )
+    );
+  }
+  if (plan.steps.length > 0 || waiting > 0) return null;
+  return (
+    <Empty title={t('empty', { robot: plan.robot })}>
+      <p>{t('emptyHelp')}</p>
+    </Empty>
+  );
 }

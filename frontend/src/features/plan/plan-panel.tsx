@@ -15,7 +15,7 @@ import { useSame, useStable } from '@/ui/stable';
 import { asItIs, pendingSteps, sinceThen, toDrafts } from './editing';
 import { MissionCard } from '@/ui/mission-card';
 import { goesOn, isOf } from '@/live/missions';
-import { PlanBar } from './plan-bar';
+import { Over, PlanBar } from './plan-bar';
 import { PlanEditor } from './plan-editor';
 import { isEarlier, linesOf, type Line } from '@/live/lines';
 import { baseOf, editId, useLasting } from './lasting';
@@ -107,6 +107,7 @@ function PlanOf({ plan }: { plan: PlanView }) {
         <Together robot={plan.robot} open={lines.length - over + waiting.length} />
         <Steps title={t('earlier')} from={0} lines={lines.slice(0, over)} plan={plan} isFolded={over < lines.length || waiting.length > 0} />
         <Steps title={t('now')} from={over} lines={lines.slice(over)} plan={plan} isChanged={(id) => changed.includes(id)} onRemove={editing ? undefined : remove} list={steps} />
+        <Over plan={plan} isEdited={editing !== null} waiting={waiting.length} />
         {editing && (
           <PlanEditor
             id={id}
@@ -120,11 +121,6 @@ function PlanOf({ plan }: { plan: PlanView }) {
           />
         )}
         <Proposed waiting={waiting} />
-        {plan.steps.length === 0 && waiting.length === 0 && (
-          <Empty title={t('empty', { robot: plan.robot })}>
-            <p>{t('emptyHelp')}</p>
-          </Empty>
-        )}
       </div>
       {!editing && <Foot plan={plan} />}
     </>

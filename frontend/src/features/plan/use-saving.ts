@@ -65,7 +65,7 @@ export function useSaving() {
 }
 
 /** What a plan is that goes on no more. */
-const ENDED: readonly PlanView['state'][] = ['ended', 'idle'];
+export const ENDED: readonly PlanView['state'][] = ['ended', 'idle'];
 
 /**
  * What somebody is changing stands in what others make of the plan meanwhile, as soon as that is heard.
@@ -88,7 +88,7 @@ export function usePassed() {
   return async (robot: string, revision: number) => {
     await movedOn(robot, revision);
     const isOver = ENDED.includes(ownPlan(robot)?.state ?? 'idle');
-    show({ tone: 'error', message: t(isOver ? 'conflict' : 'conflictKept'), stands: isOver ? 'deed' : whileItGoesOn(robot) });
+    show({ tone: 'error', message: t(isOver ? 'conflictOver' : 'conflictKept'), stands: isOver ? 'deed' : whileItGoesOn(robot) });
     return isOver;
   };
 }
