@@ -211,6 +211,10 @@ describe.skipIf(!hasBrowser)('an operator with a plan', () => {
     await page.getByRole('button', { name: 'Save' }).click();
     await page.getByText('The plan was changed.').first().waitFor();
     await expect.poll(() => steps(page).locator('li[data-state="queued"]').count(), { timeout: PATIENCE_MS }).toBe(count);
+    await page.getByRole('button', { name: 'Continue' }).click();
+    await steps(page).locator('li[data-state="running"]').waitFor();
+    const { rounds } = await stage.get<{ rounds: { words: string; state: string }[] }>('history');
+    expect(rounds.filter(({ state }) => state === 'running' || state === 'unrecorded').map(({ words }) => words)).toEqual([TASK]); // nor two of it
   });
 
   it('stops it while it drives, and lets it carry on afterwards', async () => {

@@ -22,7 +22,7 @@ from parley.agents.planner.effects import (
     StopGraph,
 )
 from parley.agents.planner.plan import KEEP_DONE, TargetPlan
-from parley.agents.planner.steps import with_values
+from parley.agents.planner.steps import Step, with_values
 from parley.errors import FailureCode
 from parley.messages.chat import ActionCall, Flow, SystemCommand
 from parley.messages.failure import FailureReport
@@ -733,3 +733,16 @@ def test_a_way_is_called_by_what_was_looked_up_also_when_it_is_tried_again(
     plan.steps[-1].call = with_values(way, dict.fromkeys(axes, 7.0))
     board.show(plan, approvals)
     assert [step.label for step in board.shown[0].steps][-1] == "Go to “x 7.0 m, y 7.0 m”"
+
+
+def test_what_an_earlier_process_left_is_told_as_what_it_goes_on_with_and_nothing_else_is(
+    plan: TargetPlan, engine: Engine
+) -> None:
+    plan.restore([Step(look("box"))], "before")
+    assert plan.update().continues == "before"
+    engine.take(list(plan.start()))
+    engine.settle()
+    assert (plan.update().continues, plan.graph_name) == ("before", "graph_0")
+    engine.finish()
+    engine.take(list(plan.append([look("door")])))
+    assert (plan.update().continues, plan.graph_name) == ("", "graph_1")

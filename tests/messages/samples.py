@@ -412,6 +412,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "policy": "ask_when_risky",
         "held_by": KIM,
         "waits": ["9b"],
+        "continues": "f",
     },
     status.PlanRuling: {
         "order": "7",

@@ -189,6 +189,50 @@ async def test_what_was_given_up_and_put_back_is_one_round_with_all_that_was_don
         assert [one["words"] for one in await rounds()] == ["look at the door", "all three"]
 
 
+async def test_what_a_restart_cut_off_is_one_round_with_who_wanted_it() -> None:
+    async with served("Ada") as rig:
+        clock, transport = HandClock(), rig.robots.transport
+        async with await AuditStore.open(":memory:", clock) as store:
+
+            async def tell(graph_name: str, state: str, step: str, continues: str = "") -> None:
+                steps = [{"action": LOOK.model_dump(), "label": "look at the box", "state": step}]
+                told = {"target": "Ada", "graph_name": graph_name, "state": state, "steps": steps}
+                rig.robots.tell(topics.PLAN, PlanUpdate.model_validate({**told, "continues": continues}))
+                await rig.heard()
+
+            async def rounds() -> list[tuple[str, str, str, int]]:
+                await rig.heard()
+                found = (await rig.http.get("/api/history")).json()["rounds"]
+                return [(one["words"], one["by"], one["state"], len(one["steps"])) for one in found]
+
+            who = "Kim (page on a phone)"
+            async with AuditLog(transport, store, clock):
+                await order(rig, "one", "look at the box", BEGAN_MS)
+                await rig.heard()
+            async with AuditLog(transport, store, clock):
+                await tell("", "paused", "queued", "one")
+                assert await rounds() == [("look at the box", who, "running", 1)]
+                await tell("two", "running", "running", "one")
+                graph(rig, "two", "RUNNING", BEGAN_MS + 1000)
+                assert await rounds() == [("look at the box", who, "running", 1)]
+            async with AuditLog(transport, store, clock):  # and once more, and then it is given up
+                await tell("", "paused", "queued", "two")
+                await tell("", "idle", "stopped", "two")
+                assert await rounds() == [("look at the box", who, "ended", 1)]
+
+                rig.robots.tell(
+                    topics.CHAT_INPUT, ChatInput(id="x", message="the door", targets=("Ada",), by=KIM)
+                )
+                rig.robots.tell(topics.CHAT_ACTION, ChatAction(queue=(LOOK,), targets=("Ada",), reply_to="x"))
+                await rig.heard()
+            async with AuditLog(transport, store, clock):  # before somebody says yes to it
+                yes = PlanDecision(target="Ada", id="p", decision="approve", by=person("Ann"))
+                rig.robots.tell(topics.PLAN_DECISION, yes)
+                await tell("three", "running", "running")
+                graph(rig, "three", "RUNNING", BEGAN_MS + 2000)
+                assert (await rounds())[0] == ("the door", who, "running", 1)
+
+
 async def test_how_long_it_took_counts_neither_the_wait_for_an_answer_nor_standing_still() -> None:
     async with logged() as rig:
         await order(rig, "one", "look at the box", BEGAN_MS)

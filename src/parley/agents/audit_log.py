@@ -22,7 +22,7 @@ from parley.gate.audit_store import AuditStore
 from parley.gate.heard import Heard
 from parley.gate.table import Effect
 from parley.messages import topics
-from parley.messages.audit import AuditEvent, AuditList, GetAudit
+from parley.messages.audit import AuditEntry, AuditEvent, AuditList, GetAudit
 from parley.messages.chat import ChatAction, ChatInput
 from parley.messages.memory import AddToMemory, MemoryEvent
 from parley.messages.ros import ChatRequest, ChatResponse, String
@@ -39,6 +39,8 @@ P = TypeVar("P", bound=BaseModel)
 _WAITING: Final = 10_000
 _BATCH: Final = 200
 _RETRY_S: Final = 2.0
+_RECALLED: Final = 300
+"""So many entries of a kind are read at the start."""
 _MONTH_MS: Final = 31 * 24 * 3600 * 1000
 
 
@@ -84,6 +86,7 @@ class AuditLog(Node):
     async def open(self) -> None:
         """See `Node.open`."""
         heard = self._heard
+        await self._recall()
         self.opened.push_async_callback(self._finish)
         await self._hear(topics.AUDIT, AuditEvent, self._told)
         await self._hear(topics.CHAT_INPUT, ChatInput, heard.on_input)
@@ -106,6 +109,17 @@ class AuditLog(Node):
         self.opened.push_async_callback(server.close)
         self.write([AuditEvent(effect="open")])
         await self._prune()
+
+    async def _recall(self) -> None:
+        """Know who wanted what of robots that go on with what they were told before this began."""
+        found: list[AuditEntry] = []
+        try:
+            for effect in ("begin", "start", "end"):
+                found += await self._store.entries(GetAudit(effect=effect, limit=_RECALLED))
+        except StoreError as error:
+            self.log.warning("the log cannot be read", error=str(error))
+        found.sort(key=lambda entry: entry.number)
+        self._heard.recall(found)
 
     def write(self, events: Sequence[AuditEvent]) -> None:
         """Have events written soon, in their order; returns at once."""

@@ -73,6 +73,19 @@ class Heard:
         self._catalogues: Latest[str, Sequence[ActionInfo]] = Latest()
         self._wishes: Latest[str, str] = Latest()
 
+    def recall(self, entries: Iterable[AuditEvent]) -> None:
+        """Take in what an earlier process wrote down of who wanted what, oldest first."""
+        for entry in entries:
+            key = f"{entry.robot}\n{entry.detail.get('graph', '')}"
+            facts: dict[str, Any] = {"by": entry.by, "detail": entry.detail, "digest": entry.digest}
+            if entry.effect == "begin" and "labels" in entry.detail:
+                asked = {name: entry.detail[name] for name in ("asked_by", "asked") if name in entry.detail}
+                self._orders[entry.robot] = {**facts, "detail": asked, "labels": entry.detail["labels"]}
+            elif entry.effect == "start":
+                self._running[key] = self._begun[key] = {**facts, "orders": ()}
+            elif entry.effect == "end":
+                self._running.pop(key, None)
+
     def _is_repeat(self, press: Press | None) -> bool:
         """Whether a button's press was heard before: it is sent until somebody takes it."""
         if press is None:
@@ -140,7 +153,7 @@ class Heard:
             last = told if told.graph_name == before.graph_name else before
             if last is told and told.state != "idle":
                 return []
-            key = f"{last.target}\n{last.graph_name}"
+            key = f"{last.target}\n{last.graph_name or last.continues}"
             facts, worked = self._running.pop(key, None), self._worked(key)
             if not facts:
                 return []
@@ -232,6 +245,9 @@ class Heard:
         told = labels(plan.steps) if plan and plan.graph_name == event.graph_name else order.get("labels", [])
         # What was put back goes on with what it was taken out of, on the account of who wanted that.
         continues = event.graph_name if key in self._begun else order.get("continues", "")
+        if plan and plan.state != "idle" and plan.graph_name in ("", event.graph_name):
+            continues = continues or plan.continues  # a restart came between
+        self._running.pop(f"{event.actor}\n{continues}", None)
         before = self._begun.get(f"{event.actor}\n{continues}") or order
         detail = {**order["detail"], **before["detail"], "graph": event.graph_name, "labels": told}
         if continues:

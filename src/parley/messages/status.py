@@ -211,6 +211,8 @@ class PlanUpdate(Payload):
     """Who told the robot to stand still; None: nobody."""
     waits: tuple[str, ...] | None = None
     """The proposals that wait for a yes, by their ids, oldest first: no other does. None: it is not told."""
+    continues: str = ""
+    """The graph that an earlier process left, of which this is what was still to be done."""
 
 
 class PlanProposal(Payload):

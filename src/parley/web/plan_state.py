@@ -80,6 +80,12 @@ class PlanBook:
                 self._end_proposal(proposal.id)
         self._show_plan(update, before)
 
+    @property
+    def left_over(self) -> set[tuple[str, str]]:
+        """Graphs of which an earlier process has left something that is still to be done."""
+        told = self._updates.values()
+        return {(one.target, one.continues) for one in told if one.continues and one.state != "idle"}
+
     def is_past(self, robot: str, revision: int) -> bool:
         """Whether the steps of a robot's plan that have not begun are others than at `revision`."""
         return revision < self._free_since.get(robot, 0)

@@ -111,7 +111,8 @@ def waiting(state: WebState, robot: str, language: SpokenLanguage = "en") -> tup
 
 def running_graphs(state: WebState) -> frozenset[Graph]:
     """What robots do just now."""
-    return frozenset(key for key, plan in state.plans.views.items() if plan.state not in _OVER)
+    running = {key for key, plan in state.plans.views.items() if plan.state not in _OVER}
+    return frozenset({*running, *state.plans.left_over})
 
 
 def told_lines(entries: Iterable[AuditEntry], language: SpokenLanguage) -> tuple[tuple[int, str], ...]:
@@ -156,7 +157,9 @@ def _all_steps(entries: Sequence[AuditEntry], language: SpokenLanguage) -> tuple
         if _graph(entry) in later:
             continue  # it tells more
         mine = [*reversed(_texts(entry, "labels", language))]
-        for out in _texts(entry, "left" if entry.effect == "end" else "labels", language) if later else ():
+        # Of what was cut off it is not known what was done; what is done anew was not.
+        left, cut = _texts(entry, "left", language), _texts(entries[-1], "labels", language)
+        for out in (left if entry.effect == "end" else cut) if later else ():
             if out in mine:
                 mine.remove(out)
         steps += reversed(mine)

@@ -74,6 +74,7 @@ class TargetPlan(PlanState):
         if self.given_up:
             return self._replace_failed(calls)
         over = self._over
+        self.continues = "" if over else self.continues
         self.add(calls, words, order)
         if self.held:
             return []
@@ -87,6 +88,7 @@ class TargetPlan(PlanState):
             undoes: Ids of steps that are among `calls` anew; what is being done of them makes way.
         """
         over, stays = self._over and not (undoes and self.run == "halted"), self.staying(undoes)
+        self.continues = "" if over and not undoes else self.continues
         others = [step for step in self.steps if step not in stays]
         new, left, orders = steps_of(calls, stays, stays), [*others], {step.order for step in others}
         for step in new:
@@ -116,9 +118,9 @@ class TargetPlan(PlanState):
         """Whether nothing is left, so that what comes next begins a graph of its own."""
         return self.run in ("none", "halted") and not self.held and not self.pending
 
-    def restore(self, steps: Sequence[Step]) -> None:
-        """Take over what an earlier process left; it waits until the operator says to go on."""
-        self.steps, self.pause_wanted = [*steps], bool(steps)
+    def restore(self, steps: Sequence[Step], continues: str = "") -> None:
+        """Take over what an earlier process left, in a graph; it waits until the operator says to go on."""
+        self.steps, self.pause_wanted, self.continues = [*steps], bool(steps), continues
 
     def adopt(self, graph_name: str, steps: Sequence[Step], *, dry: bool, going: bool = False) -> None:
         """Take over a graph that an engine holds since an earlier process; as `restore`.

@@ -109,10 +109,10 @@ class RobotPlans:
 
     # -- what an earlier process left ------------------------------------------------------------------
 
-    def restore(self, target: str, steps: Sequence[Step]) -> None:
+    def restore(self, target: str, steps: Sequence[Step], continues: str = "") -> None:
         """Hold `steps`, which an earlier process left, until the operator says to go on or to drop them."""
         plan = self.plan(target)
-        plan.restore(steps)
+        plan.restore(steps, continues)
         self.send(plan, [])
 
     def adopt(self, target: str, name: str, steps: Sequence[Step], *, dry: bool) -> None:
@@ -139,7 +139,7 @@ class RobotPlans:
         if steps and held:
             self._adopt_run(plan, run, was, steps)
         elif steps:
-            self.restore(robot, steps)
+            self.restore(robot, steps, name)
         elif held:
             self.hold_graph(robot, name)
         return interruption_text(was, held or steps) if run.left else met_text(was)

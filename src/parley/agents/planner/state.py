@@ -70,6 +70,8 @@ class PlanState:
         """The steps that a dry graph was last asked to continue with."""
         self.awaiting = False
         """How a step ended has to be heard before it is known what comes next."""
+        self.continues = ""
+        """The graph of an earlier process of which this is what was left."""
 
     # -- what others see -------------------------------------------------------------------------------
 
@@ -112,7 +114,13 @@ class PlanState:
             )
             for step, call in zip(self.steps, listed(self.steps), strict=True)
         ]
-        return PlanUpdate(target=self.target, graph_name=self.graph_name, state=state, steps=tuple(shown))
+        return PlanUpdate(
+            target=self.target,
+            graph_name=self.graph_name,
+            state=state,
+            steps=tuple(shown),
+            continues=self.continues,
+        )
 
     def _asking(self) -> Step | None:
         """Whose question is open: a step that waits for a person anyway, or else the first that runs."""
