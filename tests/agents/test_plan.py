@@ -284,6 +284,18 @@ def test_leaving_out_a_failed_step_drops_what_depends_on_it(plan: TargetPlan, en
     (modify,) = plan.skip()
     assert isinstance(modify, ModifyGraph)
     assert [node.name for node in modify.graph.nodes] == ["Look"]
+    assert states(plan) == ["skipped", "skipped", "queued"]
+
+
+def test_a_step_that_failed_and_is_left_out_is_told_as_left_out(plan: TargetPlan, engine: Engine) -> None:
+    engine.take(list(plan.append([look("box"), look("door")])))
+    engine.settle()
+    engine.fail()
+    engine.take(list(plan.skip()))
+    engine.settle()
+    assert states(plan) == ["skipped", "running"]
+    engine.finish()
+    assert (states(plan), plan.update().state) == (["skipped", "finished"], "idle")
 
 
 def test_going_on_after_an_alert_leaves_nothing_out(plan: TargetPlan, engine: Engine) -> None:

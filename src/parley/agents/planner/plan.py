@@ -19,7 +19,15 @@ from parley.agents.planner.effects import Effect, PauseGraph, ResumeGraph, Say, 
 from parley.agents.planner.flow import shifted, steps_of
 from parley.agents.planner.reports import Reports
 from parley.agents.planner.state import GOING, PlanState
-from parley.agents.planner.steps import ACTIVE_STATES, OPEN_STATES, Step, When, new_id, with_givers
+from parley.agents.planner.steps import (
+    ACTIVE_STATES,
+    OPEN_STATES,
+    Step,
+    When,
+    new_id,
+    with_givers,
+    without_orphans,
+)
 from parley.agents.planner.sync import KEEP_DONE, Sync
 from parley.messages.chat import ActionCall, SystemCommand
 from parley.sentences import sentence
@@ -300,11 +308,15 @@ class TargetPlan(PlanState):
         steps = steps_of(calls, self.steps[:at])
         for step in steps:
             step.words, step.order = failed.words, failed.order
+        if not steps:
+            failed.state = "skipped"  # so that it is told as left out, with what could only follow it
+            kept = {id(step) for step in without_orphans(self.steps)}
+            for step in self.steps:
+                step.state = step.state if id(step) in kept else "skipped"
+            return
         place = self.steps.index(failed)
         self.steps[place : place + 1] = steps[-1:]
         self.steps[at:at] = steps[:-1]
-        if not steps:
-            return
         steps[-1].together = failed.together
         heir = next((step for step in reversed(steps) if step.call.name == failed.call.name), steps[-1])
         for step in self.steps:
