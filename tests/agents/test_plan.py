@@ -352,6 +352,28 @@ def test_undoing_a_skip_lets_what_began_instead_make_way(can_end_step: bool) -> 
     assert states(plan) == ["finished"] * 3, "nothing was left out"
 
 
+def test_what_was_given_up_and_is_put_back_behind_another_order_is_still_part_of_its_own(
+    engine: Engine,
+) -> None:
+    plan = engine.plan
+
+    def settle(effects: list[Effect]) -> None:
+        engine.take(list(effects))
+        for stopped in (effect for effect in effects if isinstance(effect, StopGraph)):
+            engine.take(list(plan.reports.on_graph(Graph(stopped.graph_name, state=GraphState.STOPPED))))
+        engine.settle()
+
+    settle(plan.append([look("box"), look("lid")], "both", "first"))
+    gone = {step.id for step in plan.steps}
+    settle(plan.clear())
+    settle(plan.append([look("door")], "the door", "second"))
+    settle(plan.edit([look("box"), look("lid")], gone))
+    assert [(step.order, step.words) for step in plan.steps] == [
+        ("second", "the door"), ("first", "both"), ("first", "both"),
+    ]  # fmt: skip
+    assert gone == {step.id for step in plan.steps[1:]}
+
+
 def test_skip_without_the_command_for_steps_restarts_the_rest(engine: Engine) -> None:
     numbers = itertools.count()
     plan = TargetPlan("A", new_graph_name=lambda: f"graph_{next(numbers)}", can_end_step=lambda: False)

@@ -98,7 +98,8 @@ class TargetPlan(PlanState):
         over, stays = self._over and not (undoes and self.run == "halted"), self.staying(undoes)
         self.continues = "" if over and not undoes else self.continues
         others = [step for step in self.steps if step not in stays]
-        new, left, orders = steps_of(calls, stays, stays), [*others], {step.order for step in others}
+        left = [*others, *(step for step in self.dropped if step.id in undoes and step not in others)]
+        new, orders = steps_of(calls, stays, stays), {step.order for step in left}
         for step in new:
             if len(orders) == 1:
                 (step.order,) = orders
@@ -179,6 +180,7 @@ class TargetPlan(PlanState):
 
     def clear(self) -> list[Effect]:
         """Drop everything and stop the robot's graph."""
+        self.dropped = self.pending
         for step in self.steps:
             if step.state in OPEN_STATES or step.state == "failed":
                 step.state = "stopped"

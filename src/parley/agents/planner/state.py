@@ -70,6 +70,8 @@ class PlanState:
         """The steps that a dry graph was last asked to continue with."""
         self.awaiting = False
         """How a step ended has to be heard before it is known what comes next."""
+        self.dropped: list[Step] = []
+        """What was left when all was given up last: somebody may put it back."""
         self.continues = ""
         """The graph of an earlier process of which this is what was left."""
 
