@@ -778,4 +778,9 @@ def test_what_the_map_has_not_there_is_looked_for_there() -> None:
     assert told == ["bay B", "bay B for all posts"]
 
 
+def test_nobody_is_part_of_a_thing_and_nobody_drives_to_a_part() -> None:
+    for said in ("go to the owner of the turning circle", "look at the owner of the turning circle"):
+        assert not isinstance(ENGINE.decide(situation(said, objects=PLACES, catalogue=SHIPPED)), Do)
+
+
 TWO_POSTS = (*PLACES, MapObject("post_4", "post 4", 1.0, 9.0))

@@ -16,7 +16,7 @@ from parley.language.builtin.sets import Group, apart, group, without
 from parley.language.builtin.skills import Skills
 from parley.language.builtin.spans import Filler
 from parley.language.builtin.spatial import beside, picked
-from parley.language.builtin.things import Mention, head_of, kind_of, link, main_word, noun_phrase
+from parley.language.builtin.things import Mention, head_of, kind_of, link, main_word, noun_phrase, whole_of
 from parley.language.builtin.tokens import Token, point_of, tokenize
 from parley.language.builtin.wishes import Wish
 from parley.language.dialogue.map_words import distance_m, in_room, named, same_kind
@@ -165,8 +165,8 @@ class Grounder:
             return before
         objects, lexicon = self.situation.objects, self.lexicon
         there = things_inside(filler.words, objects, self.situation.rooms, lexicon)
-        known = mention.kind == "one" and mention.things[0] in there
-        if there and not known and self.group(filler.words) is None:
+        is_there = mention.kind == "one" and mention.things[0] in there
+        if there and not is_there and self.group(filler.words) is None:
             return self._one_of(there)
         inside = self._in_room(frame, filler) if mention.kind != "one" else None
         if inside is not None:
@@ -185,8 +185,9 @@ class Grounder:
             return Ask(f"I do not know which ones you mean by “{filler.text}”. Please name them.")
         if mention.kind in ("speaker", "here"):
             return self.speaker()
-        if mention.things:
-            return self._mentioned(filler, mention)
+        known = mention if mention.things else self._part_of(frame, filler, mention)
+        if known is not None:
+            return self._mentioned(filler, known)
         name, rest = noun_phrase(filler.words, filler.head, lexicon)
         place = known_place(name, self.known) if "'s" not in rest[:1] else None
         if place is not None:
@@ -205,6 +206,13 @@ class Grounder:
         return self._unknown(
             as_said(mention.text, filler.text), frame, sought=frame in _MOVABLE and filler.role == "T"
         )
+
+    def _part_of(self, frame: str, filler: Filler, mention: Mention) -> Mention | None:
+        """A part that no map knows of a thing that it knows, where that is only looked at."""
+        if frame not in ("LOOK", "PHOTO") or filler.role != "T":
+            return None
+        whole = whole_of(filler.words, filler.head, self.situation.objects, self.lexicon)
+        return Mention("part", mention.text, (whole,)) if whole is not None else None
 
     def _mentioned(self, filler: Filler, mention: Mention) -> Value | Ask:
         """What is named, or a part of it; a place is the whole: no map knows its sides."""

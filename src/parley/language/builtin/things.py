@@ -11,7 +11,7 @@ from typing import Literal
 from rapidfuzz.distance import OSA
 
 from parley.language.builtin.amounts import is_compass
-from parley.language.builtin.lexicon import Lexicon, stem, stems
+from parley.language.builtin.lexicon import Lexicon, is_somebody, stem, stems
 from parley.language.lexicon import word_set
 from parley.world.object_map import MapObject
 
@@ -90,9 +90,6 @@ def link(words: Sequence[str], head: int, objects: Sequence[MapObject], lexicon:
         of_whole = name[part - 1] in lexicon.classes["parts"]
         whole = [*itertools.dropwhile(lexicon.classes["determiners"].__contains__, name[part + 1 :])]
         best = _best(whole if of_whole else name[:part], objects)
-        there = [] if best or of_whole else _best(whole, objects)
-        if len(there) == 1 and _rank_of(whole, there[0]) <= 1:  # of what no map knows, it is a part
-            return Mention("part", " ".join((*name, *rest)), tuple(there))
         if of_whole and len(best) == 1:
             return Mention("part", " ".join((*name, *rest)), tuple(best))
         held = name[part + 1] in lexicon.classes["determiners"]  # "the lid of the jar" is no jar
@@ -107,6 +104,19 @@ def link(words: Sequence[str], head: int, objects: Sequence[MapObject], lexicon:
         nearer = [item for item in best if hints.isdisjoint(stems(item.description.split())) is without]
         best = nearer or best
     return Mention("one" if len(best) == 1 else "several", " ".join((*name, *rest)), tuple(best))
+
+
+def whole_of(
+    words: Sequence[str], head: int, objects: Sequence[MapObject], lexicon: Lexicon
+) -> MapObject | None:
+    """The thing of which words name a part that no map knows: "the hinge of the gate"; never a person."""
+    name, _ = noun_phrase(words, head, lexicon)
+    at = name.index("of") if "of" in name[:-1] else 0
+    if not at or name[at + 1] not in lexicon.classes["determiners"] or is_somebody(name[at - 1]):
+        return None
+    whole = [*itertools.dropwhile(lexicon.classes["determiners"].__contains__, name[at + 1 :])]
+    found = _best(whole, objects)
+    return found[0] if len(found) == 1 and _rank_of(whole, found[0]) <= 1 else None
 
 
 def _referring(words: Sequence[str], head: int, lexicon: Lexicon) -> Mention | None:
