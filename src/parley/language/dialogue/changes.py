@@ -435,6 +435,19 @@ def _renamed(text: str, names: set[str], target: MapObject) -> str:
     return text[:at] + target.description + text[at + len(hit) :] if hit else text
 
 
+def _looks_everywhere(plan: Sequence[Visit], situation: Situation) -> list[Visit]:
+    """What is looked for at each place of a plan, whatever place that is; nothing if it is not so at each."""
+    looking = {info.name for info in situation.catalogue if "looks" in info.effects}
+    rows: list[list[Visit]] = []
+    for visit in plan:
+        if visit.things:
+            rows.append([])
+        elif rows and {call.name for call in visit.calls} <= looking:
+            rows[-1].append(visit)
+    same = all([one.calls for one in row] == [one.calls for one in rows[0]] for row in rows)
+    return rows[0] if rows and same else []
+
+
 def _put_in(situation: Situation, plan: Sequence[Visit], wanted: Sequence[Named], text: str) -> Change | None:
     """A further place, at the end or before everything."""
     front = _FRONT.search(text) is not None
@@ -445,9 +458,7 @@ def _put_in(situation: Situation, plan: Sequence[Visit], wanted: Sequence[Named]
     if like is None or any(len(name.things) > 1 or name.things[0].id in planned for name in wanted):
         return None
     deed = _deed_of(plan, like)
-    looking = {info.name for info in situation.catalogue if "looks" in info.effects}
-    behind = itertools.takewhile(lambda visit: not visit.things, plan[plan.index(deed[-1]) + 1 :])
-    deed += [visit for visit in behind if {call.name for call in visit.calls} <= looking]  # "for leaks"
+    deed += _looks_everywhere(plan, situation)
     calls = tuple(
         call
         for name in wanted
