@@ -9,7 +9,7 @@ from collections import deque
 from types import FunctionType, ModuleType
 from typing import Any
 
-from parley.agents.planner.orders import MOST_WAITING
+from parley.agents.planner.orders import MOST_STEPS, MOST_WAITING, MUCH_TO_DO
 from parley.agents.planner.unattended import UnattendedPlans
 from parley.agents.rules.lookout import Lookout
 from parley.clock import WallClock
@@ -89,3 +89,13 @@ async def test_a_long_run_is_remembered_by_its_end() -> None:
             assert largest(party.transport) == {}
             rulings = [json.loads(ruling.data)["outcome"] for ruling in told]
             assert rulings == ["asked"] * MOST_WAITING + ["refused"] * (MESSAGES // 5 - MOST_WAITING)
+
+
+async def test_a_plan_grows_no_longer_than_a_person_could_mean_and_that_is_told() -> None:
+    async with crew("A") as party:
+        party.body.gate("box 0")
+        party.order(*(look(f"box {number}") for number in range(MOST_STEPS)))
+        await party.until(lambda: len(party.steps()) == MOST_STEPS)
+        party.order(look("box"))
+        await party.hears(MUCH_TO_DO)
+        assert len(party.steps()) == MOST_STEPS

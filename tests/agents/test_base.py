@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from functools import partial
 from typing import ClassVar
 
@@ -273,3 +274,23 @@ async def test_whoever_is_in_charge_of_a_topic_says_when_messages_were_lost_but_
         await settle()
     (told,) = [decode(ChatFeedback, text) for text in said]
     assert told.type == "error" and ": 20." in told.message
+
+
+async def test_much_work_for_one_lets_others_in() -> None:
+    done: list[int] = []
+
+    def busy() -> None:
+        time.sleep(0.002)
+
+    async def work(number: int) -> None:
+        busy()
+        done.append(number)
+
+    async with Mailboxes[str]() as mailboxes:
+        for number in range(100):
+            mailboxes.post("A", partial(work, number))
+        turns = 0
+        while len(done) < 100:
+            await asyncio.sleep(0)
+            turns += 1
+    assert turns > 10 and done == [*range(100)]

@@ -30,7 +30,15 @@ from parley.messages.chat import ChatAction, ChatFeedback, ChatInput
 from parley.messages.display import DisplayFeed
 from parley.messages.memory import AddToMemory, MemoryEntry, RemoveMemory
 from parley.messages.status import PlanUpdate, Rejection
-from parley.messages.wire import MAX_MESSAGE_CHARS, MAX_NESTING, decode, encode, load_json, to_string
+from parley.messages.wire import (
+    MAX_MESSAGE_CHARS,
+    MAX_NESTING,
+    decode,
+    decode_plan,
+    encode,
+    load_json,
+    to_string,
+)
 from tests.messages.samples import MEMORY, MOVE, SAMPLES
 
 every_payload = pytest.mark.parametrize("kind", SAMPLES, ids=lambda kind: str(kind.__name__))
@@ -268,3 +276,8 @@ def test_what_stands_behind_a_name_to_forget_does_not_matter(behind: Any) -> Non
 def test_an_action_keeps_its_own_name_whatever_its_body_says() -> None:
     (call,) = decode(ChatAction, json.dumps({"queue": [{"Move": {**MOVE["Move"], "name": "Other"}}]})).queue
     assert call.name == "Move"
+
+
+def test_what_several_read_in_one_process_is_made_once() -> None:
+    text = encode(PlanUpdate(target="Ada"))
+    assert decode_plan(text) is decode_plan(text) and decode_plan(text) == decode(PlanUpdate, text)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import threading
+import time
 
 import pytest
 
@@ -54,3 +55,21 @@ async def test_what_comes_after_the_closing_is_not_kept() -> None:
     await asyncio.to_thread(inbox.put, String("late"))
     assert inbox.dropped == 0
     assert not inbox.pop()
+
+
+async def test_many_messages_at_once_let_others_in() -> None:
+    handled: list[String] = []
+
+    def handle(message: String) -> None:
+        time.sleep(0.002)
+        handled.append(message)
+
+    inbox = Inbox(KEPT, handle, depth=None, along=None, on_failure=fail)
+    for number in range(100):
+        inbox.put(String(str(number)))
+    turns = 0
+    while len(handled) < 100:
+        await asyncio.sleep(0)
+        turns += 1
+    assert turns > 10
+    await inbox.close()

@@ -200,6 +200,9 @@ class Rig:
                 done.clear()
                 await done.wait()
         self.server.backend.state.remove_robot(marker)
+        ends = self.robots.transport._subscriptions.values()
+        while any(end._queue for some in ends for end in some):  # noqa: ASYNC110 - many messages are overtaken
+            await asyncio.sleep(0)
 
     async def until(self, condition: Callable[[], object]) -> None:
         """Wait until something changes so that `condition` holds."""

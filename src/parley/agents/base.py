@@ -37,6 +37,7 @@ from parley.messages.topics import Topic
 from parley.messages.wire import decode, decode_plan, to_string
 from parley.sentences import SpokenLanguage, in_language, sentence
 from parley.transport.base import Handler, Publisher, Subscription, Transport
+from parley.transport.inbox import Turn
 from parley.transport.losses import Losses
 
 __all__ = ["Mailboxes", "Node"]
@@ -270,10 +271,11 @@ class Mailboxes(Generic[K]):
         await _cancel(self._tasks)
 
     async def _run(self, key: K) -> None:
-        waiting = self._waiting[key]
+        waiting, turn = self._waiting[key], Turn()
         try:
             while waiting:
                 await self._do(key, waiting.popleft())
+                await turn.pause()
         finally:
             del self._waiting[key]
 

@@ -8,7 +8,8 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
-from typing import Any, Final, TypeVar
+from functools import lru_cache
+from typing import Any, Final, TypeVar, cast
 
 from pydantic import BaseModel, ValidationError
 from pydantic_core import to_json
@@ -37,6 +38,9 @@ MAX_NESTING = 100
 MAX_MESSAGE_CHARS = 32 * 1024 * 1024
 """Larger texts are refused unread: the largest honest message is a raw picture."""
 
+KEPT_CHARS = 1024 * 1024
+"""Of larger texts nothing is kept for the next reader."""
+
 
 def decode_plan(text: str) -> PlanUpdate | PlanProposal:
     """A message of the plan topic by its `kind`; any other kind is an update, whose check names the fault.
@@ -44,9 +48,7 @@ def decode_plan(text: str) -> PlanUpdate | PlanProposal:
     Raises:
         InvalidMessageError: It is neither; names the field.
     """
-    value = load_json("Plan", text)
-    is_proposal = isinstance(value, dict) and value.get("kind") == "proposal"
-    return decode(PlanProposal, text) if is_proposal else decode(PlanUpdate, text)
+    return cast(PlanUpdate | PlanProposal, _payload(None, text))
 
 
 def encode(payload: BaseModel) -> str:
@@ -79,7 +81,21 @@ def decode(kind: type[P], text: str) -> P:
     Raises:
         InvalidMessageError: Not JSON, or a field is missing or wrong; names the first such field.
     """
-    value = load_json(kind.__name__, text)
+    return cast(P, _payload(kind, text))
+
+
+def _payload(kind: type[BaseModel] | None, text: str) -> BaseModel:
+    """See `decode`, and for no kind `decode_plan`."""
+    return _read(kind, text) if len(text) <= KEPT_CHARS else _read.__wrapped__(kind, text)
+
+
+@lru_cache(maxsize=16)
+def _read(kind: type[BaseModel] | None, text: str) -> BaseModel:
+    """Payloads are frozen, so each is made once for all who read it in this process."""
+    value = load_json(kind.__name__ if kind else "Plan", text)
+    if kind is None:
+        is_proposal = isinstance(value, dict) and value.get("kind") == "proposal"
+        kind = PlanProposal if is_proposal else PlanUpdate
     try:
         return kind.model_validate(value)
     except ValidationError as error:

@@ -8,18 +8,34 @@ import inspect
 import threading
 from collections import deque
 from collections.abc import Callable, Sequence
-from typing import Any, Generic, TypeVar
+from typing import Any, Final, Generic, TypeVar
 
 import structlog
 
 from parley.messages.topics import Topic
 from parley.transport.base import Handler, Subscription
 
-__all__ = ["Inbox", "being_cancelled"]
+__all__ = ["Inbox", "Turn", "being_cancelled"]
 
 M = TypeVar("M")
 
 log = structlog.get_logger(__name__)
+
+TURN_S: Final = 0.01
+
+
+class Turn:
+    """Lets whoever has many pieces of work, of which none may ever wait, keep the loop for `TURN_S`."""
+
+    def __init__(self) -> None:
+        self._loop = asyncio.get_running_loop()
+        self._until_s = self._loop.time() + TURN_S
+
+    async def pause(self) -> None:
+        """To be called between two pieces: others are let in when the turn is over."""
+        if self._loop.time() > self._until_s:
+            await asyncio.sleep(0)
+            self._until_s = self._loop.time() + TURN_S
 
 
 class _Line:
@@ -50,6 +66,7 @@ class _Line:
 
     async def _run(self) -> None:
         while True:
+            turn = Turn()
             while self.turns:
                 with self.lock:
                     inbox = self._handling = self.turns.popleft()
@@ -57,6 +74,7 @@ class _Line:
                 for message in waiting:
                     await inbox.handle(message)
                 self._handling = None
+                await turn.pause()
             self._arrived.clear()
             if not self.turns:
                 await self._arrived.wait()

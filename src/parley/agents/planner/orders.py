@@ -16,9 +16,9 @@ from parley.messages.status import ActionInfo
 from parley.sentences import Sentence, sentence
 
 __all__ = [
-    "BEGUN_ALREADY", "LEFT", "MOST_WAITING", "NOTHING_DONE", "NOT_AS_SHOWN", "PLAN_CHANGED",
-    "STEP_OVER", "TOO_MANY_WAIT",
-    "WAITING", "WAITING_HELPLESS", "WAITS_NO_MORE", "bare", "forgetting", "impossible", "in_order",
+    "BEGUN_ALREADY", "LEFT", "MOST_STEPS", "MOST_WAITING", "MUCH_TO_DO", "NOTHING_DONE", "NOT_AS_SHOWN",
+    "PLAN_CHANGED", "STEP_OVER", "TOO_MANY_WAIT", "WAITING", "WAITING_HELPLESS", "WAITS_NO_MORE",
+    "bare", "forgetting", "impossible", "in_order",
     "no_robot", "of_memory", "of_plans", "reasons", "take_repair",
 ]  # fmt: skip
 
@@ -42,6 +42,11 @@ MOST_WAITING: Final = 20
 """Proposals of a robot that wait for a yes at once."""
 TOO_MANY_WAIT: Final = sentence(
     "Too much waits for your yes already, so I have not taken that up. Say no to what you no longer want."
+)
+MOST_STEPS: Final = 200
+"""Steps that a robot has yet to do, beyond which it takes up nothing more: all are told at each change."""
+MUCH_TO_DO: Final = sentence(
+    "I have a great deal to do already, so I have not taken that up. Say it again when some of it is done."
 )
 WAITS_NO_MORE: Final = "That plan is no longer waiting for an answer."
 PLAN_CHANGED: Final = "The plan has changed in the meantime, so I left it as it is. Please look at it again."

@@ -281,6 +281,9 @@ class RobotPlans:
             correcting: Whether they take the failed step's place.
             refuse: Tells so where a person put them together.
         """
+        if queue and len(plan.pending) >= orders.MOST_STEPS and not (correcting or refuse):
+            self.say(plan.target, orders.MUCH_TO_DO, "error")
+            return None
         catalogue = self.catalogue(plan.target)
         calls = complete_calls(queue, catalogue)
         put = plan.correction(calls) if correcting else calls
