@@ -13,7 +13,7 @@ from parley.clock import SimClock
 from parley.errors import ActionFailure, FailureCode
 from parley.messages import ros, ros_robot
 from parley.robots.base import CameraImage, Detection
-from parley.robots.ros_senses import DETECTOR_S, PICTURE_S, PICTURES, RosTopics, Senses
+from parley.robots.ros_senses import ATTENDS_S, DETECTOR_S, PICTURE_S, PICTURES, RosTopics, Senses
 from parley.robots.ros_values import detected
 from parley.transport.base import Publisher, Transport
 from parley.transport.local import LocalTransport
@@ -141,3 +141,23 @@ async def test_a_button_is_heard_whether_its_driver_latches_what_it_says_or_not(
             button.publish(ros_robot.Bool(pressed))
             await settled()
             assert senses.emergency is pressed
+
+
+async def test_a_base_is_not_blamed_for_the_time_in_which_nobody_here_could_hear_it() -> None:
+    async with LocalTransport() as transport:
+        camera = Camera(transport)
+        camera.senses._on_odom(ros_robot.Odometry())
+        attending = asyncio.create_task(camera.senses.attend())
+        await settled()
+        camera.clock.advance(10.0)
+        assert camera.senses.fresh(1.0), "as soon as it goes on"
+        await asyncio.sleep(ATTENDS_S)
+        camera.senses._on_odom(ros_robot.Odometry())
+        camera.clock.advance(10.0)
+        for fresh in (True, False):
+            await asyncio.sleep(2 * ATTENDS_S)
+            assert camera.senses.fresh(1.0) == fresh
+            for _ in range(12):
+                camera.clock.advance(ATTENDS_S)
+                await asyncio.sleep(1.5 * ATTENDS_S)
+        attending.cancel()

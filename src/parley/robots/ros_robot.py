@@ -143,7 +143,7 @@ class RosRobot(RobotBase):
         self._senses = Senses(topics, lambda: self._clock.now_s(), lambda: self._clock.wall_s())
         self._link: Link | None = None
         self._transport: Transport | None = None
-        self._keeping: asyncio.Task[None] | None = None
+        self._keeping: asyncio.Future[Any] | None = None
         self._beating: asyncio.Task[None] | None = None
         self._cmd_vel: tuple[type[Any], Publisher[Any]] | None = None
         self._refused = ""
@@ -281,7 +281,7 @@ class RosRobot(RobotBase):
         await self._senses.listen(transport)
         await self._goals.open(transport)
         self._opened_s = self._clock.wall_s()
-        self._keeping = asyncio.create_task(self._keep(transport), name=f"hold of {self.name}")
+        self._keeping = asyncio.gather(self._keep(transport), self._senses.attend())
         try:
             async with asyncio.timeout(READY_S):
                 await self._senses.ready.wait()

@@ -37,6 +37,7 @@ KEPT_BYTES: Final = 32_000_000
 WATCHED_S: Final = 5.0
 """For so long after a picture was asked for the camera is listened to: pictures are what fills a network."""
 
+ATTENDS_S: Final = 0.1
 SILENT: Final = sentence("My base does not answer.")
 
 _TYPES: Final[dict[type[Any], str]] = {
@@ -166,6 +167,8 @@ class Senses:
         self._amcl: Pose2D | None = None
         self._odom: ros_robot.Odometry | None = None
         self._heard_s = 0.0
+        self._attended_s: float | None = None
+        """When somebody here could hear last; None: always."""
         self._sweep: tuple[ros_robot.LaserScan, float] | None = None
         self._camera: list[Subscription] = []
         self._taken: deque[_Picture] = deque()
@@ -202,8 +205,20 @@ class Senses:
     # -- read from anywhere ------------------------------------------------------------------------------
 
     def fresh(self, within_s: float) -> bool:
-        """Whether the base was heard lately."""
-        return self._wall_s() - self._heard_s <= within_s
+        """Whether the base was heard lately, of the time in which somebody here could hear it."""
+        now_s = self._wall_s()
+        if self._attended_s is not None:
+            now_s = min(now_s, self._attended_s + 2 * ATTENDS_S)
+        return now_s - self._heard_s <= within_s
+
+    async def attend(self) -> None:
+        """Notice that this process, or the thread in which messages come in, was kept from hearing any."""
+        while True:
+            self._attended_s = self._wall_s()
+            await asyncio.sleep(ATTENDS_S)
+            now_s = self._wall_s()
+            late_s = now_s - self._attended_s - 2 * ATTENDS_S
+            self._heard_s = min(now_s, self._heard_s + max(0.0, late_s))
 
     def missing(self) -> str:
         """What is not heard, for engineers."""
