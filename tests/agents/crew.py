@@ -263,6 +263,10 @@ class Crew:
         await stack.aclose()
         self.observer.publish(topics.ACTOR_STATUS, ActorStatus(actor=name, state="leaving"))
 
+    def cut(self, name: str, *, off: bool) -> None:
+        """Nothing gets through to its engine or from it, or all does again; nobody is told."""
+        self._engines[name][0].cut = off
+
     def order(
         self,
         *calls: ActionCall,

@@ -464,6 +464,30 @@ def test_going_on_unchanged_resumes(plan: TargetPlan, engine: Engine) -> None:
     assert plan.start() == [ResumeGraph("graph_0")]
 
 
+def test_to_go_on_is_said_again_until_it_is_seen_or_somebody_says_stop(
+    plan: TargetPlan, engine: Engine
+) -> None:
+    engine.take(list(plan.append([look()])))
+    engine.report()
+    plan.pause()
+    assert plan.start() == [ResumeGraph("graph_0")]
+    engine.graph_state = GraphState.PAUSED
+    engine.report()
+    assert plan.reports.on_no_resume("graph_0") == [ResumeGraph("graph_0")]
+    assert plan.reports.on_return({"graph_0": "PAUSED"}) == [ResumeGraph("graph_0")]
+    engine.graph_state = GraphState.RUNNING
+    engine.report()
+    engine.graph_state = GraphState.PAUSED
+    engine.report()
+    assert not plan.reports.on_no_resume("graph_0"), "somebody else paused it since"
+    plan.start()
+    plan.pause()
+    assert not plan.reports.on_no_resume("graph_0")
+    plan.start()
+    plan.reports.on_refused("graph_0", "umrf_graph_resume", {"stop_latched"})
+    assert not plan.reports.on_no_resume("graph_0")
+
+
 def test_pause_that_overtook_the_start_is_sent_again(plan: TargetPlan, engine: Engine) -> None:
     engine.take(list(plan.append([look()])))
     assert plan.pause() == [PauseGraph("graph_0")]

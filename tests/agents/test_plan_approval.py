@@ -18,7 +18,7 @@ from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, Flow, FlowIf, SystemCommand
 from parley.messages.principal import Principal
 from parley.messages.rules import Rule, RuleSet
-from parley.messages.status import ActionInfo
+from parley.messages.status import ActionInfo, StopCommand
 from parley.world.object_map import MapObject
 from tests.agents.crew import ENGINE, KIM, Crew, crew, decide, drive, find, look, proposals
 
@@ -268,6 +268,59 @@ async def test_who_repairs_what_goes_on_already_is_told_that_the_robot_stands() 
         await party.state("paused")
         party.correct()
         await party.hears("I am still standing still. Say “carry on” when I should go on.")
+
+
+async def test_who_repairs_a_step_that_failed_while_the_robot_stood_is_told_that_it_stands() -> None:
+    async with crew("A") as party:
+        party.body.broken.add("box")
+        await begun(party, look("door"))
+        party.command("stop")
+        await party.state("paused")
+        party.body.gate("box").set()
+        await party.state("held")
+        party.correct(look("lid"))
+        await party.hears("I am still standing still. Say “carry on” when I should go on.")
+        party.command("start")
+        await party.until(lambda: party.body.did == ["look box", "look lid", "look door"])
+
+
+@pytest.mark.parametrize("words", ["carry on", "try again"])
+async def test_a_person_who_answers_with_words_for_going_on_lets_who_stood_before_it_failed_go_on(
+    words: str,
+) -> None:
+    async with crew("A") as party:
+        party.body.broken.add("box")
+        await begun(party, look("door"))
+        party.command("stop")
+        await party.state("paused")
+        party.body.gate("box").set()
+        await party.state("held")
+        answer = ChatAction(
+            queue=(look("lid"),), targets=("A",), success=True, by=ENGINE, behalf=KIM, words=words
+        )
+        party.observer.publish(topics.UMRF_CORRECTION, answer)
+        await party.until(lambda: party.body.did == ["look box", "look lid", "look door"])
+
+
+async def test_who_did_not_hear_that_it_may_go_on_is_told_again_unless_it_was_stopped_since() -> None:
+    async with crew("A") as party:
+        party.order(drive(1), look("door"))
+        await party.doing("drive 1")
+        party.command("stop")
+        await party.state("paused")
+        for stopped in (True, False):
+            await party.until(lambda: "paused" in party.steps())
+            party.cut("A", off=True)
+            party.command("start")
+            if stopped:
+                party.observer.publish(topics.STOP, StopCommand(id="s", by=KIM))
+            await party.settled()
+            party.cut("A", off=False)
+            if stopped:
+                await asyncio.sleep(1.5)
+                assert party.observer.state("A") == "paused" and await party.body.stands_still()
+        await party.state("idle")
+        assert party.body.did == ["drive 1", "look door"]
 
 
 async def test_edit_takes_the_place_of_all_that_has_not_begun_and_another_restores_it() -> None:

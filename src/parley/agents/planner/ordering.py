@@ -16,6 +16,7 @@ from parley.agents.planner.presses import Presses
 from parley.agents.planner.proposing import Proposals
 from parley.agents.planner.robot_plans import RobotPlans
 from parley.errors import LanguageError
+from parley.gate.control import control_of
 from parley.gate.judge import Finding, Judgement
 from parley.gate.risk import always_asks
 from parley.gate.ruling import EFFECT_OF, Ruling, rule
@@ -223,9 +224,8 @@ class Ordering:
             self._plans.send(plan, plan.give_up())
         elif plan.failed is not None or clears:
             self._correct(plan, order, calls, control, judgement)
-        elif plan.update().state == "paused":
-            # What failed went on meanwhile, and "I go on" was said too early.
-            self._plans.say(plan.target, self._commands.still(plan.target), "info")
+        else:  # what failed went on meanwhile, and "I go on" may have been said too early
+            self._let_go_on(plan, order)
 
     def _correct(
         self,
@@ -257,6 +257,7 @@ class Ordering:
                 self._plans.send(
                     plan, plan.correct([failed.call] if retries and failed is not None else calls)
                 )
+                self._let_go_on(plan, order)
         elif ruling.begins == "ask":
             asked = changes
             if retries and failed is not None:
@@ -270,6 +271,17 @@ class Ordering:
             self._plans.say(plan.target, text, "info", asks_yes=True)
         else:
             self._plans.send(plan, plan.give_up())
+
+    def _let_go_on(self, plan: TargetPlan, order: ChatAction) -> None:
+        """Who stood already when a step failed goes on by a person's own words, or says that it stands."""
+        if plan.update().state != "paused":
+            return
+        by = order.behalf or order.by
+        told = control_of(order.words, self._plans.presence.names()) == "start"
+        if told and by is not None and by.is_person and verdict(by, Effect.RESUME) == "allow":
+            self._plans.send(plan, self._commands.effects_of(plan, SystemCommand(command="start"), by))
+        else:
+            self._plans.say(plan.target, self._commands.still(plan.target), "info")
 
     def _rule(
         self,

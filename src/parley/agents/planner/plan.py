@@ -154,6 +154,7 @@ class TargetPlan(PlanState):
 
     def pause(self) -> list[Effect]:
         """Stand still, keep the plan."""
+        self.resumed = False
         if self.held:
             self.given_up = True
             return self._still()
@@ -176,6 +177,7 @@ class TargetPlan(PlanState):
             return []
         # A pause that somebody else caused may not have been reported yet; resuming what runs does nothing.
         changes += self._sync.modify() if self.dirty else []
+        self.resumed = True
         return [*changes, ResumeGraph(self.graph_name)]
 
     def clear(self) -> list[Effect]:
@@ -184,7 +186,7 @@ class TargetPlan(PlanState):
         for step in self.steps:
             if step.state in OPEN_STATES or step.state == "failed":
                 step.state = "stopped"
-        self.held = self.given_up = self.pause_wanted = self.dirty = self.awaiting = False
+        self.held = self.given_up = self.pause_wanted = self.dirty = self.awaiting = self.resumed = False
         if not self.graph_name:
             return []
         self.stopping, self.graph_name, self.run = self.graph_name, "", "stopping"
@@ -277,7 +279,7 @@ class TargetPlan(PlanState):
 
     def give_up(self) -> list[Effect]:
         """Repair ended without success: stay held, keep the plan, take the next order."""
-        self.given_up = self.held
+        self.given_up, self.resumed = self.held, False
         return [PauseGraph(self.graph_name)] if self.held and self.graph_name else []
 
     def _still(self) -> list[Effect]:

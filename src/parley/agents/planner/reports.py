@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any, Final
 
-from parley.agents.planner.effects import Effect, EndStep, PauseGraph, Say, StopGraph
+from parley.agents.planner.effects import Effect, EndStep, PauseGraph, ResumeGraph, Say, StopGraph
 from parley.agents.planner.state import PlanState
 from parley.agents.planner.steps import (
     ACTIVE_NODES,
@@ -125,6 +125,7 @@ class Reports:
         if graph_name != self._plan.graph_name or not graph_name:
             return []
         command, latched = what.removeprefix("umrf_graph_"), "stop_latched" in codes
+        self._plan.resumed = self._plan.resumed and command != "resume"
         if command in ("pause", "resume") and self._plan.run == "starting":
             return []  # it overtook the start; a pause is sent again
         if command != "start" and not GONE_CODES.isdisjoint(codes):
@@ -171,7 +172,8 @@ class Reports:
         if not self._plan.graph_name or self._plan.run == "starting":
             return [*given_up]
         if self._plan.graph_name in graphs:
-            return [*given_up, *([PauseGraph(self._plan.graph_name)] if self._plan.pause_wanted else ())]
+            stands = [PauseGraph(self._plan.graph_name)] if self._plan.pause_wanted else []
+            return [*given_up, *stands, *self.on_no_resume(self._plan.graph_name)]
         return [*given_up, *self._on_gone(go_on=False)]
 
     def on_no_answer(self, graph_name: str) -> list[Effect]:
@@ -195,6 +197,12 @@ class Reports:
         self._plan.nudged.clear()
         self._plan.run = "running" if any(s.state in ACTIVE_STATES for s in self._plan.steps) else "halted"
         return self._sync.fail(step, FailureReport(message=reason, code=FailureCode.INTERNAL))
+
+    def on_no_resume(self, graph_name: str) -> list[Effect]:
+        """A graph was told to go on some time ago: an engine that was out of reach may not have heard it."""
+        if graph_name != self._plan.graph_name or self._plan.run != "paused" or not self._plan.resumed:
+            return []
+        return [ResumeGraph(graph_name)]
 
     def on_no_end(self, graph_name: str) -> list[Effect]:
         """A stopped graph did not report its end in time: go on without it."""
@@ -274,7 +282,9 @@ class Reports:
         return []
 
     def _on_going(self) -> list[Effect]:
-        just_started, self._plan.run = self._plan.run in ("starting", "continuing"), "running"
+        just_started = self._plan.run in ("starting", "continuing")
+        self._plan.resumed = self._plan.resumed and self._plan.run != "paused"
+        self._plan.run = "running"
         if self._plan.held:
             # The reference's last word after an error is that the graph still runs (D17).
             if not any(step.state in ACTIVE_STATES for step in self._plan.steps):

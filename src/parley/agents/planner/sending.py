@@ -89,6 +89,7 @@ class PlanSender:
                     self._node.send(topics.GRAPH_PAUSE_TEMOTO, ros.UmrfGraphPause(name, targets))
             case ResumeGraph(name):
                 self._node.send(topics.GRAPH_RESUME, ros.UmrfGraphResume(name, targets))
+                self._later(self._patience.progress_s, plan, lambda: plan.reports.on_no_resume(name))
             case StopGraph(name):
                 self._node.send(topics.GRAPH_STOP, ros.UmrfGraphStop(name, targets))
                 self._later(self._patience.end_s, plan, lambda: plan.reports.on_no_end(name))

@@ -57,6 +57,8 @@ class PlanState:
         self.can_end_step = can_end_step
         self.pause_wanted = False
         """Somebody told the robot to stand still."""
+        self.resumed = False
+        """It was told to go on by a person, and was not seen to; nobody has told it to stand since."""
         self.dirty = False
         """The engine does not yet know the plan as it stands."""
         self.stopping = ""

@@ -116,6 +116,7 @@ class UmrfPlanner(Node):
         """Whoever stops a robot holds its plan: only a person lets it go on after the reset."""
         for name in command.targets or tuple(self._plans.by_robot) if command.command == "stop" else ():
             plan = self._plans.plan(self._plans.presence.resolve(name) or name)
+            plan.resumed = False
             if plan.pending:
                 self._commands.hold_for(plan, command.by or person())
                 self._plans.send(plan, [])
