@@ -17,6 +17,7 @@ from parley.gate.judge import Judgement, PlannedStep
 from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, Flow, FlowIf, SystemCommand
 from parley.messages.principal import Principal
+from parley.messages.pvf import Parameter
 from parley.messages.rules import Rule, RuleSet
 from parley.messages.status import ActionInfo, StopCommand
 from parley.world.object_map import MapObject
@@ -81,15 +82,17 @@ async def test_more_or_fewer_steps_are_no_yes_to_what_was_only_offered(wanted: t
             await party.until(lambda: party.body.did == [f"look {thing}" for thing in wanted])
 
 
-async def test_another_order_than_what_was_only_offered_is_done_though_both_drive() -> None:
+@pytest.mark.parametrize("untold", [{}, {"x": Parameter("number")}])
+async def test_another_order_than_what_was_only_offered_is_done_though_both_drive(
+    untold: dict[str, Parameter],
+) -> None:
+    way = drive().model_copy(update={"input_parameters": untold})
     async with crew("A") as party:
-        told = ChatAction(
-            queue=(find("box"), drive()), targets=("A",), needs_yes="box", by=ENGINE, behalf=KIM
-        )
+        told = ChatAction(queue=(find("box"), way), targets=("A",), needs_yes="box", by=ENGINE, behalf=KIM)
         party.observer.publish(topics.CHAT_ACTION, told)
         await party.until(lambda: proposals(party))
         (offered,) = proposals(party)
-        other = {"queue": (find("lid"), drive()), "needs_yes": "", "replaces": offered["id"]}
+        other = {"queue": (find("lid"), way), "needs_yes": "", "replaces": offered["id"]}
         party.observer.publish(topics.CHAT_ACTION, told.model_copy(update=other))
         await party.until(lambda: len(party.body.did) == 2)
         assert party.body.did[0] == "find lid"

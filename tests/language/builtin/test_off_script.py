@@ -784,3 +784,39 @@ def test_nobody_is_part_of_a_thing_and_nobody_drives_to_a_part() -> None:
 
 
 TWO_POSTS = (*PLACES, MapObject("post_4", "post 4", 1.0, 9.0))
+
+
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        ("look under the turning circle", ["turning circle", "what is under the turning circle"]),
+        ("check behind bay A", ["bay A", "what is behind bay A"]),
+        ("look by the turning circle", ["turning circle", "what is by the turning circle"]),
+        ("look into bay C", ["bay C", "bay C"]),
+        ("take a photo of what's behind the turning circle", ["turning circle", "turning circle"]),
+    ],
+)
+def test_where_one_looks_is_told_by_a_place_alone(said: str, told: list[str]) -> None:
+    made = ENGINE.decide(situation(said, objects=PLACES, catalogue=SHIPPED))
+    assert isinstance(made, Do)
+    assert [str(value) for deed in made.deeds for value in deed.arguments.values()] == told
+
+
+@pytest.mark.parametrize(
+    ("said", "where"),
+    [
+        ("no, the turning circle", "turning circle"),  # none of those
+        ("I mean post 3", "post 3"),
+        ("any", "bay A"),
+        ("whichever is closer", "bay A"),
+        ("you choose", "bay A"),
+        ("the other one", None),
+    ],
+)
+def test_a_choice_may_be_left_to_the_robot_or_be_for_something_else(said: str, where: str | None) -> None:
+    asked = Dialogue(asked=Asked("go to the bay", ("bay A", "bay B", "bay C")))
+    here = situation(said, objects=PLACES, dialogue=asked, robot_pose=Pose2D(0.0, 0.0, 0.0))
+    made = ENGINE.decide(here)
+    assert isinstance(made, Do) is (where is not None)
+    if isinstance(made, Do):
+        assert [deed.arguments["place"] for deed in made.deeds] == [where]

@@ -13,6 +13,7 @@ from parley.language.dialogue.state import Asked, Dialogue, Order
 from parley.messages.chat import ActionCall
 from parley.messages.memory import MemoryEntry
 from parley.messages.pvf import Parameter
+from parley.messages.status import PlanProposal
 from parley.world.object_map import MapObject
 from tests.language.builtin.test_sights import ABLE
 
@@ -155,6 +156,18 @@ def test_the_other_two_are_those_that_were_not_spoken_of() -> None:
     made = ENGINE.decide(replace(at("check the other two as well", history=turns), objects=GATES))
     assert isinstance(made, Do)
     assert [deed.arguments["what"] for deed in made.deeds if deed.frame == "LOOK"] == ["Gate 1", "Gate 3"]
+
+
+def test_it_is_what_was_proposed_last_and_not_what_that_stands_next_to() -> None:
+    find = {"what": Parameter("string", "short bench in the hall")}
+    waits = PlanProposal(
+        id="p", target="Ada", words="now the bench next to it",
+        steps=(ActionCall(name="locate", input_parameters=find),),
+    )  # fmt: skip
+    turns = (Turn("operator", "go to the gate"), Turn("operator", "now the bench next to it"))
+    made = ENGINE.decide(at("look at it", history=turns, dialogue=Dialogue(proposal=waits, now_unix_ms=1)))
+    assert isinstance(made, Do)
+    assert [deed.arguments["what"] for deed in made.deeds] == ["short bench in the hall"]
 
 
 def test_there_is_where_it_was_sent_last() -> None:

@@ -343,6 +343,7 @@ def _deeds(calls: Sequence[ActionCall]) -> set[str]:
     """What steps do; one that is told nothing itself goes by those before it."""
     found: list[str] = []
     for call in calls:
-        led = found[-1] if found and not call.input_parameters else ""
-        found.append(f"{led} {call.name} {sorted(call.input_parameters.items())}")
+        given = sorted((name, value.value) for name, value in call.input_parameters.items() if value.has_data)
+        led = found[-1] if found and not given else ""
+        found.append(f"{led} {call.name} {given}")
     return {*found}

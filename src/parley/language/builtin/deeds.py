@@ -31,6 +31,18 @@ _BESIDE_M = 1.0
 """So near a thing counts as being at a place."""
 
 
+def _as(filler: Filler, role: str, other: str) -> Filler:
+    """A role as another one, if it is that."""
+    return replace(filler, role=other) if filler.role == role else filler
+
+
+def _seen_where(where: Filler) -> Filler:
+    """What is to be looked at, where only a place is told: that as a whole, or "what is under it"."""
+    if where.words[0] in WITHIN | {"into", "through", "round", "around"}:
+        return replace(where, role="T")
+    return replace(where, role="K", words=("what", "is", *where.words), said=f"what is {where.text}")
+
+
 @dataclass(slots=True)
 class Builder(Doing):
     """Makes the deeds of one message."""
@@ -95,6 +107,17 @@ class Builder(Doing):
     def _seen(self, wish: Wish) -> Wish:
         """Whom the map does not know is looked for, and what is to be shown is looked at without a camera."""
         thing = wish.one("T")
+        looks = wish.frame == "LOOK" and not wish.has("TKL")
+        looks = looks or (
+            wish.frame == "GO" and "look" in {w for v in wish.verb.split()[:1] for w in lemmas(v)}
+        )
+        if looks and wish.has("G"):  # "look by the gate"
+            wish = replace(wish, frame="LOOK", fillers=tuple(_as(f, "G", "L") for f in wish.fillers))
+        where = wish.one("L")
+        if wish.frame == "LOOK" and where is not None and not wish.has("TK"):
+            wish = replace(wish, fillers=tuple(_seen_where(f) if f is where else f for f in wish.fillers))
+        if wish.frame == "PHOTO" and thing is not None and thing.words[0] == "what":
+            wish = replace(wish, fillers=tuple(self._behind_what(f) for f in wish.fillers))
         if wish.frame == "PHOTO" and "PHOTO" not in self.skills and {*wish.verb.split()} & {"show", "see"}:
             wish = replace(wish, frame="LOOK")
         if wish.frame == "LOOK" and thing is not None and not wish.has("K") and "FIND" in self.skills:
@@ -102,6 +125,15 @@ class Builder(Doing):
             if is_somebody(thing.words[thing.head]) and not known:
                 return replace(wish, frame="FIND")
         return wish
+
+    def _behind_what(self, filler: Filler) -> Filler:
+        """The place alone of "what is behind the gate"."""
+        leads = self.lexicon.classes["prepositions"] - {"is", "are", "'s"}
+        at = next((n for n, word in enumerate(filler.words) if n and word in leads), 0)
+        if filler.words[0] != "what" or not at or at + 1 == len(filler.words):
+            return filler
+        words = filler.words[at + 1 :]
+        return replace(filler, words=words, head=head_of(words, self.lexicon), said=" ".join(words))
 
     def _gathered(self, wish: Wish) -> Wish:
         """With things and the room in which they are as one role: "check all crates in the yard"."""

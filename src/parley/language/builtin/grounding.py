@@ -247,8 +247,11 @@ class Grounder:
         name, objects = stems(text.lower().split()), self.situation.objects
         known = {item.description: kind_of(stems(item.description.lower().split())) for item in objects}
         akin = [told for told, words in known.items() if len(name) > 1 and main_word(words) == name[-1]]
+        begun = [told for told in known if len(name) > 1 and told.lower().startswith(f"{text.lower()} ")]
         half = [told for told, words in known.items() if name[0] == words[0] != main_word(words)]
-        return tuple(akin[:6] or half * (len(half) == 1))  # "the loading bay" may be the loading area
+        return tuple(
+            akin[:6] or begun[:6] or half * (len(half) == 1)
+        )  # "the loading bay" may be the loading area
 
     def _spoken_of(self, filler: Filler, mention: Mention) -> Value | Ask | None:
         """What was spoken of before, if words like "it" and "there" mean that."""

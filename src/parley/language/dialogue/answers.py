@@ -172,6 +172,16 @@ def _asked(situation: Situation, about: str) -> str:
     return f"{words}{_did(situation, about)}"
 
 
+def _when_did(situation: Situation, about: str) -> str:
+    """When it was last done with what is about a thing."""
+    names = [thing.description.lower() for thing in _things(situation, about)]
+    ended = [deed for deed in _visible(situation.dialogue.deeds) if deed.ending in ("done", "no")]
+    meant = [deed for deed in ended if any(name in deed.label.lower() for name in names)]
+    if not names or not meant:
+        return "Not since I was started." if names else ""
+    return f"I was done with this {_at(meant[-1].unix_ms)}: {step_words(meant[-1].label)}."
+
+
 def _said_last(situation: Situation, about: str) -> str:
     """What the robot itself said last, once more."""
     last = next((turn.content for turn in reversed(situation.history) if turn.role == "assistant"), "")
@@ -602,7 +612,7 @@ _TOPICS: Final[dict[str, Callable[[Situation, str], str]]] = {
     "where_going": _where_going, "why_stopped": _why_stopped, "waiting_for": _waiting, "why_not": _why_not,
     "why_not_go": _why_not_go, "why": _why, "what_doing": _doing, "what_left": _left, "what_did": _did,
     "will_visit": _will_visit, "before_stop": _before_stop, "beside_step": _beside, "asked": _asked,
-    "said_last": _said_last, "who_am_i": _who_am_i,
+    "when_did": _when_did, "said_last": _said_last, "who_am_i": _who_am_i,
     "what_seen": _seen, "what_else_seen": _else, "seen_thing": _seen_thing, "how_long": _how_long,
     "how_far": _how_far, "whats_in": _whats_in, "places": _places, "amiss": _amiss,
     "battery": _battery, "able": _able, "name": _name, "time": _time, "told_about": _told_about,

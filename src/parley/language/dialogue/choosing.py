@@ -16,6 +16,7 @@ from parley.language.builtin.sets import kinds
 from parley.language.builtin.spatial import NEAREST, picked
 from parley.language.builtin.things import head_of, link
 from parley.language.builtin.tokens import Token
+from parley.language.dialogue.map_words import distance_m
 from parley.language.dialogue.replies import chosen, names_deed
 from parley.language.dialogue.speaker import Again
 from parley.language.lexicon import word_set
@@ -35,6 +36,8 @@ def choice_of(situation: Situation, tokens: Sequence[Token], again: Again) -> De
     asked = situation.dialogue.asked
     words = [token.low for token in tokens if token.is_word]
     lead = 1 if words[:1] == ["no"] else 2 if words[:2] == ["all", "right"] else 0
+    if asked is not None and (other := _another(words, asked.words, asked.choices, situation)):
+        return again(other)
     words = words[lead:] if len(words) > lead + 1 else words  # "no, the red one" says which
     if asked is None or len(words) > _ANSWER or situation.message.rstrip().endswith("?"):
         return None
@@ -47,6 +50,7 @@ def choice_of(situation: Situation, tokens: Sequence[Token], again: Again) -> De
         joined = _one_after_the_other(made)
         return replace(joined, about=asked.words) if isinstance(joined, Do) else joined
     choice = _by_place(words, asked.choices, situation) or chosen(words, asked.choices, also)
+    choice = choice or _left_to_it(words, asked.choices, situation)
     if len(asked.choices) == 1 and assent_of(situation.message):
         choice = asked.choices[0]
     if choice is None or _orders(words, choice, asked.choices):
@@ -58,6 +62,33 @@ def choice_of(situation: Situation, tokens: Sequence[Token], again: Again) -> De
         told = _with_choice(asked.words, choice, asked.choices, situation)
         return replace(one, about=told) if told else None
     return one if isinstance(one, Edit) or (isinstance(one, Ask) and one.offer) else None
+
+
+def _another(words: Sequence[str], order: str, choices: Sequence[str], situation: Situation) -> str:
+    """The order with something else that the map knows in place of all choices: "no, I mean the desk"."""
+    taken_back = "no" in words[:1] or bool(_SMALL_VERBS & {*words})
+    bare = [word for word in words if word not in _BESIDE | _SMALL_VERBS]
+    named = [item for item in situation.places if item.description.lower().split() == bare]
+    if not taken_back or len(named) != 1 or named[0].description in choices:
+        return ""
+    return _with_choice(order, named[0].description, choices, situation)
+
+
+def _left_to_it(words: Sequence[str], choices: Sequence[str], situation: Situation) -> str | None:
+    """The nearest one, where the choice is left to the robot: "any", "you choose", "whichever is closer"."""
+    pose, items = situation.robot_pose, [item for item in situation.places if item.description in choices]
+    if pose is None or len(items) != len(choices) or not _LEFT_TO_IT.fullmatch(" ".join(words)):
+        return None
+    return min(items, key=lambda item: distance_m(item, pose)).description
+
+
+_BESIDE: Final = word_set("no sorry oh i the my our a please actually rather")
+_LEFT_TO_IT: Final = re.compile(
+    r"(?:(?:oh|just|please|well|ok|okay) )*(?:(?:any|either)(?: one)?(?: of them)?(?: will do| is fine)?|"
+    r"whichever(?: (?:one )?(?:is|'s) (?:clos|near|easi)(?:er|est))?|whichever you (?:like|want)|"
+    r"(?:it )?(?:does not|doesn't|don't) matter(?: which(?: one)?)?|you (?:choose|decide|pick)(?: one)?|"
+    r"i (?:do not|don't) (?:mind|care)|up to you|all the same(?: to me)?|(?:pick|choose) one)(?: please)?"
+)
 
 
 def _with_choice(order: str, choice: str, choices: Sequence[str], situation: Situation) -> str:

@@ -118,7 +118,8 @@ def _agreed(situation: Situation, reading: Reading, again: Again) -> Decision | 
 def _about_itself(heard: Heard) -> Decision | None:
     """A question about the robot, a wish to forget, a word to wait."""
     situation, bare = heard.situation, heard.bare
-    question = None if is_promised(bare, situation.catalogue) else question_of(bare)
+    chooses = bare in ("any", "any one") and situation.dialogue.asked is not None
+    question = None if chooses or is_promised(bare, situation.catalogue) else question_of(bare)
     if question is None and situation.message.rstrip().endswith("?"):  # "Kim looked for you, where were you?"
         question = question_of(plain(tokenize(_LAST.sub("", situation.message)), (situation.robot,)))
     asked = situation.dialogue.asked
@@ -540,7 +541,9 @@ def spoken_of(
 
     What is `sought` is not the place by which something was that nobody knows: "I had it by the gate".
     """
-    orders = {order.words: order for order in situation.dialogue.orders}
+    calls = {order.words: order.calls for order in situation.dialogue.orders}
+    if (waits := situation.dialogue.proposal) is not None:
+        calls[waits.words] = waits.steps
     thing: MapObject | Place | None = _found(situation)
     place: MapObject | Place | None = None
     person: Place | None = None
@@ -548,8 +551,7 @@ def spoken_of(
     for turn in reversed(situation.history[-_TURNS:]):
         if turn.role != "operator":
             continue
-        order = orders.get(turn.content)
-        texts = [words for call in order.calls for words in texts_of(call)] if order is not None else []
+        texts = [words for call in calls.get(turn.content, ()) for words in texts_of(call)]
         tokens = tokenize(turn.content)
         low, names = {token.low for token in tokens}, named(tokens, situation.objects, lexicon)
         if person is None:
@@ -560,7 +562,9 @@ def spoken_of(
                 (p for p in known if not _is_called(p) and _tells_of(p, turn.content, low, bare)), None
             )
         spot = tokens[:1] and tokens[0].low in _AT  # "on the desk" is where something else is
-        if (_IT & low or spot) and names:  # "bring it to the gate" speaks of something else than the gate
+        its = next((at for at, token in enumerate(tokens) if token.low in _IT), len(tokens))
+        told = bool(texts) and names and names[-1].end <= its < len(tokens)  # "the crate next to it"
+        if (_IT & low or spot) and names and not told:  # "bring it to the gate" speaks of no gate
             place = place or names[-1].things[0]
         elif thing is None and not open_:
             most = most_asked(tokens, situation, lexicon)
