@@ -820,3 +820,11 @@ def test_a_choice_may_be_left_to_the_robot_or_be_for_something_else(said: str, w
     assert isinstance(made, Do) is (where is not None)
     if isinstance(made, Do):
         assert [deed.arguments["place"] for deed in made.deeds] == [where]
+
+
+def test_where_one_looks_may_have_been_spoken_of_before() -> None:
+    past = (Turn("operator", "go to the turning circle"),)
+    made = ENGINE.decide(situation("look under it", objects=PLACES, catalogue=SHIPPED, history=past))
+    assert isinstance(made, Do)
+    told = [str(value) for deed in made.deeds for value in deed.arguments.values()]
+    assert told == ["turning circle", "what is under the turning circle"]

@@ -73,6 +73,7 @@ async def test_a_thing_takes_the_place_of_all_that_is_taken_back() -> None:
         ("forget it, the lamp too", {0}, ["lamp"]),
         ("and add the lamp at the end", set(), ["lamp"]),
         ("and the lamp", set(), ["lamp"]),
+        ("now the lamp", set(), ["lamp"]),
         ("never mind all that, go to the lamp", {0}, ["lamp"]),
         ("go to the lamp", set(), ["lamp"]),
     ],
@@ -374,3 +375,18 @@ async def test_rooms_are_taken_out_like_things(message: str, drops: int) -> None
     rooms = tuple(MapArea(name, corners).goal for name in ("yard", "shed"))
     answer = await ENGINE.interpret(replace(given(message, "box", "yard", "shed"), rooms=rooms))
     assert len(dropped(answer)) == drops, answer.message_response
+
+
+async def test_what_is_seen_in_a_room_is_looked_at_in_the_one_that_is_added() -> None:
+    corners = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0))
+    rooms = tuple(MapArea(name, corners).goal for name in ("yard", "shed"))
+    plain = given("now the shed", "yard")
+    look = PlanStep(action=doing("Look", "what can be seen in the yard"), label="Look around in the yard")
+    plan = (*plain.dialogue.steps, look)
+    waits = tuple(step.action for step in plan if step.state != "finished")
+    dialogue = replace(plain.dialogue, steps=plan)
+    answer = await ENGINE.interpret(
+        replace(plain, rooms=rooms, catalogue=(FIND, GO, LOOK), queue=waits, dialogue=dialogue)
+    )
+    assert goals(answer) == ["shed"]
+    assert str(answer.queue[-1].input_parameters["what"].value) == "what can be seen in the shed"

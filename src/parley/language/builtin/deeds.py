@@ -115,7 +115,8 @@ class Builder(Doing):
             wish = replace(wish, frame="LOOK", fillers=tuple(_as(f, "G", "L") for f in wish.fillers))
         where = wish.one("L")
         if wish.frame == "LOOK" and where is not None and not wish.has("TK"):
-            wish = replace(wish, fillers=tuple(_seen_where(f) if f is where else f for f in wish.fillers))
+            there = _seen_where(self._by_name(where))
+            wish = replace(wish, fillers=tuple(there if f is where else f for f in wish.fillers))
         if wish.frame == "PHOTO" and thing is not None and thing.words[0] == "what":
             wish = replace(wish, fillers=tuple(self._behind_what(f) for f in wish.fillers))
         if wish.frame == "PHOTO" and "PHOTO" not in self.skills and {*wish.verb.split()} & {"show", "see"}:
@@ -125,6 +126,14 @@ class Builder(Doing):
             if is_somebody(thing.words[thing.head]) and not known:
                 return replace(wish, frame="FIND")
         return wish
+
+    def _by_name(self, where: Filler) -> Filler:
+        """Where something is that was spoken of before, by its name: "under it"."""
+        it = self._it() if where.words[-1] == "it" else None
+        if it is None:
+            return where
+        words = (*where.words[:-1], "the", *it.description.lower().split())
+        return replace(where, words=words, head=len(words) - 1, said=" ".join(words))
 
     def _behind_what(self, filler: Filler) -> Filler:
         """The place alone of "what is behind the gate"."""

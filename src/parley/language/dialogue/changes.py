@@ -58,7 +58,7 @@ _GIVEN_UP: Final = r"instead|rather|scratch|forget|never ?mind|drop|cancel|leave
 _INSTEAD: Final = re.compile(rf"\b(?:{_GIVEN_UP}|no|nope|not|(?:i|we) (?:mean|meant)|make (?:it|that))\b")
 """What takes back also what comes "first"; "actually" and "wait" do not."""
 _ADDING: Final = re.compile(
-    r"^(?:(?:ok|okay|yes|please) )*and\b(?!.*\?)|"
+    r"^(?:(?:ok|okay|yes|please|and) )*(?:and|now)\b(?!.*\?)|"
     r"\b(?:also|add|too|as well|and then|then|after (?:that|this|wards?)|afterwards|at the end|finally|"
     r"besides|plus|include|append|on top|later|when you are done|when done|next)\b"
 )
@@ -459,11 +459,12 @@ def _put_in(situation: Situation, plan: Sequence[Visit], wanted: Sequence[Named]
         return None
     deed = _deed_of(plan, like)
     deed += _looks_everywhere(plan, situation)
+    before = next(iter(like.things), None)
     calls = tuple(
         call
         for name in wanted
         for visit in deed
-        for call in moved(visit, name.things[0]) or (() if visit.things else visit.calls)
+        for call in moved(visit, name.things[0], before) or (() if visit.things else visit.calls)
     )
     names = " and ".join(called(name.things[0].description) for name in wanted)
     if front:
