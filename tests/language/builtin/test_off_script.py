@@ -828,3 +828,10 @@ def test_where_one_looks_may_have_been_spoken_of_before() -> None:
     assert isinstance(made, Do)
     told = [str(value) for deed in made.deeds for value in deed.arguments.values()]
     assert told == ["turning circle", "what is under the turning circle"]
+
+
+@pytest.mark.parametrize("said", ["look there", "look in bays A to C whether the lights are on"])
+def test_no_look_is_made_of_a_word_for_some_place(said: str) -> None:
+    made = ENGINE.decide(situation(said, objects=PLACES, catalogue=SHIPPED))
+    told = [str(value) for deed in getattr(made, "deeds", ()) for value in deed.arguments.values()]
+    assert not any(text.startswith("what is ") for text in told)

@@ -114,7 +114,7 @@ class Builder(Doing):
         if looks and wish.has("G"):  # "look by the gate"
             wish = replace(wish, frame="LOOK", fillers=tuple(_as(f, "G", "L") for f in wish.fillers))
         where = wish.one("L")
-        if wish.frame == "LOOK" and where is not None and not wish.has("TK"):
+        if wish.frame == "LOOK" and where is not None and not wish.has("TK") and self._leads(where):
             there = _seen_where(self._by_name(where))
             wish = replace(wish, fillers=tuple(there if f is where else f for f in wish.fillers))
         if wish.frame == "PHOTO" and thing is not None and thing.words[0] == "what":
@@ -126,6 +126,12 @@ class Builder(Doing):
             if is_somebody(thing.words[thing.head]) and not known:
                 return replace(wish, frame="FIND")
         return wish
+
+    def _leads(self, where: Filler) -> bool:
+        """Whether a word tells on which side of one place it is: "under the ramp", not "there"."""
+        small = self.lexicon.classes["there"] | self.lexicon.classes["here"] | {"here"}
+        leads = where.words[0] in self.lexicon.classes["prepositions"] and len(where.words) > 1
+        return leads and where.words[-1] not in small and not self.names_set(where)
 
     def _by_name(self, where: Filler) -> Filler:
         """Where something is that was spoken of before, by its name: "under it"."""
