@@ -63,7 +63,7 @@ def answer(
         tokens = tokenize(situation.message)
         if not told and look_asked_for(tokens, named(tokens, situation.objects, lexicon)):
             return Answer("How that is now I only see when I look there.")
-        if tokens[0].low in _NOT_WHERE and "where" not in situation.message.lower():
+        if tokens[0].low in _NOT_WHERE and not {"where", "know", "way"} & {token.low for token in tokens}:
             return told or Answer(_NO_ANSWER)
         return told or Answer(_lying(situation, mention.things[0]))
     if mention.kind == "several":
