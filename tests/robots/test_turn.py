@@ -32,7 +32,10 @@ class QuickClock(WallClock):
         return self.time_s
 
     def wall_s(self) -> float:
-        return self.time_s
+        return self.time_s / self.speed
+
+    speed = 1.0
+    """Robot time for each second of wall time."""
 
     async def sleep(self, seconds: float) -> None:
         await asyncio.sleep(0)
@@ -133,6 +136,30 @@ async def test_it_says_once_whom_it_waits_for_and_is_not_patient_for_ever() -> N
     assert caught.value.code is FailureCode.BLOCKED
     assert person.heard == ["I am waiting before “door”: Kim goes first."]
     assert door.turn._clock.now_s() > PATIENCE_S
+
+
+async def test_patience_with_others_begins_when_there_are_others() -> None:
+    door, person = Door(other=False), Person()
+    door.book.gives = False  # it is asked who holds what, for a moment of wall time
+    door.turn._clock = clock = QuickClock()
+    clock.speed = 1000.0
+    async with waiting(door, person) as attending:
+        for _ in range(20):  # turns of the loop, in which it may give up
+            await clock.sleep(PATIENCE_S / 8)
+        assert not attending.done()
+        door.book.gives = True
+        door.tell()
+        assert await door.at(3.2)
+    assert person.heard == []
+
+
+async def test_who_waits_for_the_place_behind_says_who_is_there() -> None:
+    door, person = Door(other=False), Person()
+    door.book.take("Kim", PassageClaim(inside=("niche",), capacity={"niche": 1}))
+    async with waiting(door, person) as attending:
+        with pytest.raises(ActionFailure, match="Kim is still in it") as caught:
+            await attending
+    assert caught.value.code is FailureCode.BLOCKED
 
 
 @pytest.mark.parametrize(("answer", "goes"), [("yes", True), ("no", False)])

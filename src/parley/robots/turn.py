@@ -210,7 +210,11 @@ class Turn:
                 if wait.known and wait.others and (text := _told(wait)) != told:
                     told = text
                     person.tell(text)
-                if not wait.known and self._clock.wall_s() - since_s > UNHEARD_S:
+                if wait.others:
+                    since_s = self._clock.wall_s()
+                else:  # whoever gives places, in wall time, has not given it yet
+                    began_s = self._clock.now_s()
+                if self._clock.wall_s() - since_s > UNHEARD_S:
                     raise ActionFailure(FailureCode.UNAVAILABLE, _in_vain(wait))
                 if wait.stuck or self._clock.now_s() - began_s > PATIENCE_S:
                     raise ActionFailure(FailureCode.BLOCKED, _in_vain(wait), {TAKEN: wait.place})
@@ -314,12 +318,18 @@ class Turn:
         state = next((one for one in self._told.places if one.name == place), PassageState(name=place))
         me = self._robot.name
         known = me in state.waiting or me in state.robots
-        first = state.waiting[: state.waiting.index(me)] if me in state.waiting else ()
-        others = self._others(place) or first
+        kept = (self._keep_out(name) for name in (place, *self._claim.wants))  # all is given, or nothing
+        others = next(filter(None, kept), ())
         wait = _Wait(place, others, state.lost, me in self._told.stuck, known)
         if wait != self._wait:
             self._wait = wait
             self._tell()
+
+    def _keep_out(self, place: str) -> tuple[str, ...]:
+        """Who is in a place, or goes first."""
+        waiting = next((one.waiting for one in self._told.places if one.name == place), ())
+        me = self._robot.name
+        return self._others(place) or (waiting[: waiting.index(me)] if me in waiting else ())
 
     # -- waiting --------------------------------------------------------------------------------------------
 
@@ -357,7 +367,7 @@ def _told(wait: _Wait) -> Sentence:
 
 
 def _in_vain(wait: _Wait) -> Sentence:
-    if not wait.known:
+    if not wait.others:
         return sentence("Nobody tells me whose turn it is at “{place}”, so I do not go in.", place=wait.place)
     who = ", ".join(wait.others)
     if wait.stuck:
