@@ -12,6 +12,7 @@ from parley.messages import topics
 from parley.messages.chat import ChatInput, ChatRead, ReplyDraft
 from parley.messages.principal import person
 from parley.web import outbox
+from parley.web.bodies import ChatPost
 from tests.transport.backends import until
 from tests.web.rig import JPEG, Page, served
 
@@ -78,6 +79,22 @@ async def test_of_two_answers_at_once_one_counts_and_so_it_is_with_what_is_offer
         assert (await rig.http.post("/api/chat", json=again[0])).status_code == 200, "the same, sent twice"
         await rig.heard()
         assert [heard.message for heard in rig.robots.inputs] == [again[0]["text"]]
+
+
+async def test_what_is_said_while_an_answer_is_kept_is_no_second_answer() -> None:
+    async with served("Ada") as rig:
+        page = await rig.page()
+        rig.robots.ask("Which box?", name="Ada")
+        await page.until(lambda: page.of("chat"))
+        key = page.of("chat")[0]["entry"]["id"]
+        said = [message("m1", "red", "Ada", reply_to=key), message("m2", "then go home", "Ada")]
+        say = rig.server.backend.say  # at once: the second is composed while the first is written to the disk
+        await asyncio.gather(*(say(ChatPost.model_validate(one), person("Kim")) for one in said))
+        await rig.heard()
+        assert {(heard.message, heard.type) for heard in rig.robots.inputs} == {
+            ("red", "response"),
+            ("then go home", "request"),
+        }
 
 
 @pytest.mark.parametrize("more", [{"asks": True}, {"choices": ("red", "blue")}])

@@ -7,15 +7,23 @@ import { answering, askedAnew, conversation, offering, openQuestions, wishing } 
 const question = (id: string, seq: number, target: string, state: 'open' | 'answered' = 'open') =>
   entry({ id, seq, targets: [target], type: 'request', question: state });
 
+const NONE: ReadonlySet<string> = new Set();
+
 describe('open questions', () => {
   it('are the newest that still await an answer, per robot', () => {
     const open = openQuestions([
       question('q1', 1, 'Ada'),
       question('q2', 2, 'Ada'),
       question('q3', 3, 'Bob', 'answered'),
-    ]);
+    ], NONE);
     expect([...open.keys()]).toEqual(['Ada']);
     expect(open.get('Ada')?.id).toBe('q2');
+  });
+
+  it('are not those that somebody has just answered', () => {
+    const both = [question('q1', 1, 'Ada'), question('q2', 2, 'Ada')];
+    expect(openQuestions(both, new Set(['q2'])).get('Ada')?.id).toBe('q1');
+    expect(openQuestions(both, new Set(['q1', 'q2'])).size).toBe(0);
   });
 });
 
@@ -28,14 +36,14 @@ it('says of a question that it was not answered where the robot asks the same ri
 
 describe('a message to several robots', () => {
   it('answers those that asked and is a request to the others', () => {
-    const open = openQuestions([question('q1', 1, 'Ada')]);
+    const open = openQuestions([question('q1', 1, 'Ada')], NONE);
     const answer = answering(open, ['Ada', 'Bob']);
     expect(answer.question?.id).toBe('q1');
     expect(answer).toMatchObject({ robots: ['Ada'], others: ['Bob'] });
   });
 
   it('is a plain request when none of them asked', () => {
-    const open = openQuestions([question('q1', 1, 'Ada')]);
+    const open = openQuestions([question('q1', 1, 'Ada')], NONE);
     expect(answering(open, ['Bob']).question).toBeNull();
   });
 });

@@ -3,11 +3,11 @@ import type { ChatEntry } from './types';
 
 export type Questions = ReadonlyMap<string, ChatEntry>;
 
-/** The newest open question of each robot. */
-export function openQuestions(chat: readonly ChatEntry[]): Questions {
+/** The newest open question of each robot, without those whose answer is on its way: what is written next answers nothing. */
+export function openQuestions(chat: readonly ChatEntry[], answered: ReadonlySet<string>): Questions {
   const open = new Map<string, ChatEntry>();
   for (const entry of chat) {
-    if (entry.question !== 'open') continue;
+    if (entry.question !== 'open' || answered.has(entry.id)) continue;
     for (const robot of entry.targets) open.set(robot, entry);
   }
   return open;

@@ -3,7 +3,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { robot, snapshot } from '@/live/samples';
 import { useLive } from '@/live/store';
 
-import { useOutbox } from './outbox';
+import { answeredIn, useOutbox } from './outbox';
 
 const keys: string[] = [];
 let reachable = false;
@@ -56,6 +56,14 @@ describe('a message that did not get through', () => {
     expect(useOutbox.getState().messages).toMatchObject([{ text: 'the red one', refused: true, reason: 'Settled.' }]);
     await send({ text: 'come here', targets: ['Ada'], reply_to: '', images: [] });
     expect(useOutbox.getState().messages).toMatchObject([{ text: 'come here' }]);
+  });
+
+  it('answers its question as long as it did not fail', async () => {
+    await useOutbox.getState().send({ text: 'red', targets: ['Ada'], reply_to: 'q', images: [] });
+    expect([...answeredIn(useOutbox.getState().messages)]).toEqual([]);
+    reachable = true;
+    await useOutbox.getState().send({ text: 'blue', targets: ['Ada'], reply_to: 'q', images: [] });
+    expect([...answeredIn(useOutbox.getState().messages)]).toEqual(['q']);
   });
 
   it('is forgotten when it is discarded', async () => {

@@ -134,6 +134,11 @@ useLive.subscribe((live, before) => {
   if (left.length < messages.length) useOutbox.setState({ messages: left });
 });
 
+/** Keys of the questions to which an answer is on its way. */
+export function answeredIn(messages: readonly Outgoing[]): ReadonlySet<string> {
+  return new Set(messages.filter((one) => one.state !== 'failed' && one.reply_to).map((one) => one.reply_to));
+}
+
 /** Those that the conversation does not hold yet. A message to several may come back in parts (`key`, `key/2`). */
 export function undelivered(messages: readonly Outgoing[], known: ReadonlySet<string>): readonly Outgoing[] {
   return messages.filter((message) => !known.has(message.id));

@@ -92,7 +92,6 @@ class Backend:
         self.view_listeners: list[Callable[[MapView], None]] = []
         self.picture_listeners: list[Callable[[tuple[str, str], Picture], None]] = []
         self._sending: set[str] = set()
-        self._answering: set[str] = set()
         """What is just being answered."""
         self._keeping: set[asyncio.Task[None]] = set()
         self._policies: dict[str, str] = {}
@@ -256,16 +255,15 @@ class Backend:
         if known is not None:
             return await self._say_again(post, known)
         self._check_reply(post)
-        self._answering.add(post.reply_to)
+        pictures = [kept_picture(f"{post.id}.{number}", image) for number, image in enumerate(post.images)]
+        composed = self._composed(post, by, pictures)
+        chat, taken = self.state.chat, {post.reply_to, *composed.answered} - {""}
+        chat.being_answered |= taken
         try:
-            pictures = [
-                kept_picture(f"{post.id}.{number}", image) for number, image in enumerate(post.images)
-            ]
-            composed = self._composed(post, by, pictures)
             await self.store.keep([composed.entry], pictures, composed.messages)
-            self.state.chat.said(composed)
+            chat.said(composed)
         finally:
-            self._answering.discard(post.reply_to)
+            chat.being_answered -= taken
         await self.outbox.say(composed.entry, composed.messages)
         return composed.entry
 
@@ -324,7 +322,8 @@ class Backend:
     def _check_reply(self, post: ChatPost) -> None:
         """Of several answers at once, of several people too, one counts."""
         if not post.reply_to or not (
-            post.reply_to in self._answering or self.state.chat.is_settled(post.reply_to, post.id)
+            post.reply_to in self.state.chat.being_answered
+            or self.state.chat.is_settled(post.reply_to, post.id)
         ):
             return
         raise WebProblem(

@@ -53,6 +53,8 @@ class ChatBook:
         self.next_seq = max((entry.seq for entry in self.entries.values()), default=0) + 1
         self._asked_as: dict[str, str] = {}
         """Key of an open question -> its id on the wire, perhaps empty."""
+        self.being_answered: set[str] = set()
+        """Keys of questions whose answer is not kept yet: nothing else answers them."""
         self._left_open: dict[str, None] = {}
         """Keys of replies that ask for more: whatever is said next to the robot settles them."""
         self._wishes = dict.fromkeys(key for key, entry in self.entries.items() if entry.asks_yes)
@@ -257,7 +259,8 @@ class ChatBook:
 
     def _question_of(self, robot: str, wanted: str) -> str | None:
         """The question of `robot` that an answer settles: the wanted one, else the newest."""
-        waiting = [key for key in self._asked_as if _awaits(self.entries.get(key), robot)]
+        open_ones = (key for key in self._asked_as if key not in self.being_answered)
+        waiting = [key for key in open_ones if _awaits(self.entries.get(key), robot)]
         return wanted if wanted in waiting else next(reversed(waiting), None)
 
     def _left_open_by(self, robots: Sequence[str]) -> list[str]:

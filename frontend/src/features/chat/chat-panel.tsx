@@ -21,7 +21,7 @@ import css from './chat-panel.module.css';
 import { useMay } from '@/state/me';
 import { Composer } from './composer';
 import { History } from './history';
-import { useOutbox } from '@/state/outbox';
+import { answeredIn, useOutbox } from '@/state/outbox';
 import { answering, conversation, openQuestions } from '@/live/questions';
 import { RobotTabs } from './robot-tabs';
 import { SearchBox } from './search-box';
@@ -44,14 +44,13 @@ export function ChatPanel() {
   const [searching, setSearching] = useState(false);
   const input = useRef<HTMLTextAreaElement>(null);
 
-  const questions = useMemo(() => openQuestions(chat), [chat]);
+  const onTheirWay = useOutbox((outbox) => outbox.messages);
+  const questions = useMemo(() => openQuestions(chat, answeredIn(onTheirWay)), [chat, onTheirWay]);
   const entries = useMemo(() => conversation(chat, chosen), [chat, chosen]);
   const asked = useAsked();
   const askedHere = useMemo(() => conversation(asked, chosen), [asked, chosen]);
   const answer = useMemo(() => answering(questions, chosen), [questions, chosen]);
-  const onItsWay = useOutbox(
-    (outbox) => outbox.messages.findLast((one) => one.targets.some((name) => chosen.includes(name)))?.text,
-  );
+  const onItsWay = onTheirWay.findLast((one) => one.targets.some((name) => chosen.includes(name)))?.text;
   const lastSaid = useMemo(
     () => onItsWay ?? entries.findLast((entry) => entry.who === 'operator')?.message ?? '',
     [onItsWay, entries],

@@ -7,6 +7,7 @@ import { openQuestions } from '@/live/questions';
 import { useWorld } from '@/live/store';
 import type { PlanView, StepView } from '@/live/types';
 import { attempt } from '@/state/do';
+import { answeredIn, useOutbox } from '@/state/outbox';
 import { Button } from '@/ui/button';
 import { quoted, sentence } from '@/ui/words';
 
@@ -27,7 +28,8 @@ export function PlanControls({ plan, onEdit }: Props) {
   const { t } = useTranslation('plan');
   const offer = usePutBack(plan);
   const chat = useWorld((world) => world.chat);
-  const asks = useMemo(() => openQuestions(chat).has(plan.robot), [chat, plan.robot]);
+  const onTheirWay = useOutbox((outbox) => outbox.messages);
+  const asks = useMemo(() => openQuestions(chat, answeredIn(onTheirWay)).has(plan.robot), [chat, onTheirWay, plan.robot]);
   const order = (command: PlanCommand, step = '') => attempt(() => commandPlan(plan.robot, command, step));
   if (plan.kind !== 'plan' || RESTING.includes(plan.state)) return null;
   const standing = plan.state === 'paused' || plan.state === 'held';
