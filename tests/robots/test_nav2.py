@@ -40,7 +40,7 @@ from parley.robots.link import Link
 from parley.robots.nav2 import Nav2Robot, Nav2Setup
 from parley.robots.nav2_errors import failure_of
 from parley.robots.nav2_simulated import SimulatedNav2
-from parley.robots.ros_robot import LOST_S
+from parley.robots.ros_robot import BACK_S, LOST_S, Goals, RosRobot, RosSetup
 from parley.robots.ros_senses import RosTopics
 from parley.sim.simulator import Simulator
 from parley.transport.base import Endpoint, Publisher, Transport
@@ -355,6 +355,64 @@ async def test_when_the_network_dies_it_stands_within_a_second_and_does_not_go_o
         await until(lambda: not on.nav2.robot.stopped)
         assert on.nav2.robot.planned_path() == ()
     assert failed.value.code is FailureCode.HARDWARE
+
+
+class AwayOnce:
+    """Those who drive a robot, out of reach for us right after the first goal: its end is not heard."""
+
+    def __init__(self, goals: Goals) -> None:
+        self._goals, self.sent = goals, 0
+
+    async def send(self, *given: Any, timeout_s: float) -> Any:
+        sent = await self._goals.send(*given, timeout_s=timeout_s)
+        self.sent += 1
+        return sent if self.sent > 1 else Away()
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._goals, name)
+
+
+async def test_a_drive_goes_on_when_who_drives_it_was_out_of_reach_for_a_moment() -> None:
+    async with stage("local", speed=QUICK) as on:
+        once = AwayOnce(on.robot._goals)
+        on.robot._goals = once
+        there = ahead(on.robot, 0.8)
+        assert (await on.robot.navigate(there, NOT_PAUSED, timeout_s=30)).distance_to(there) < 0.3
+        assert once.sent == 2
+
+
+class Away:
+    """Who takes a goal, and is out of reach from then on."""
+
+    async def open(self, transport: Transport) -> None:
+        pass
+
+    async def send(self, target: Any, on_remaining: Any, *, timeout_s: float) -> Any:
+        return self
+
+    async def outcome(self, *, timeout_s: float) -> Any:
+        raise UnavailableError("away")
+
+    async def call_off(self, *, timeout_s: float) -> bool:
+        raise UnavailableError("away")
+
+    def failure(self, outcome: Any, *, moved: bool) -> ActionFailure:
+        raise AssertionError(outcome)
+
+
+async def test_who_drives_it_and_stays_away_is_not_waited_for_for_long() -> None:
+    peer = Peer("jazzy", 1.0)
+    setup = RosSetup("navigate_to_pose", topics=TOPICS, radius_m=0.2)
+    robot = RosRobot("A", lambda: Hosted(peer), Away(), setup)
+    await robot.open()
+    try:
+        robot.settle(robot.own_map, WallClock(), None)
+        there = Pose2D(robot.pose().x_m + 1.0, robot.pose().y_m, 0.0)
+        with pytest.raises(ActionFailure, match="does not answer"):
+            await asyncio.wait_for(robot.navigate(there, NOT_PAUSED, timeout_s=60), 2 * BACK_S + 2.0)
+        assert peer.nav2.robot.stopped
+    finally:
+        await asyncio.to_thread(robot.close)
 
 
 @pytest.mark.parametrize("kind", ["local", "zenoh"])

@@ -48,6 +48,8 @@ LOOP_S: Final = 0.5
 """A program whose loop stands for so long does not watch its robot."""
 ASKING_S: Final = 2.0
 READY_S: Final = 10.0
+BACK_S: Final = 5.0
+"""Until a goal is called off, by who may have been out of reach, the next one waits for so long."""
 SEEN_S: Final = 1.0
 """After this it is seen whether somebody tells a map."""
 MAP_S: Final = 3.0
@@ -372,7 +374,7 @@ class RosRobot(RobotBase):
         return self._paused or self._halted
 
     async def _attempt(self, goal: Pose2D, control: NavigationControl, left_s: float, began: Pose2D) -> bool:
-        """Drive to the end of one goal; False: it was held meanwhile."""
+        """Drive to the end of one goal; False: it was held meanwhile, or out of reach."""
         loop, until_s = asyncio.get_running_loop(), self._clock.now_s() + left_s
 
         def on_progress(remaining_m: float) -> None:
@@ -388,6 +390,8 @@ class RosRobot(RobotBase):
                 if self._clock.now_s() > until_s:
                     raise ActionFailure(FailureCode.TIMED_OUT, LATE)
             outcome = drive.result()
+            if outcome is None:
+                return False
         finally:
             if not drive.done():
                 self.drive(Velocity())
@@ -406,25 +410,35 @@ class RosRobot(RobotBase):
         if not self._senses.fresh(LOST_S):
             raise ActionFailure(FailureCode.HARDWARE, SILENT)
 
-    async def _drive(self, goal: Pose2D, on_progress: Callable[[float], None]) -> Outcome[Any]:
-        """On the link: one goal to its end."""
-        while self._unwatched:  # noqa: ASYNC110 - set from other threads
-            await asyncio.sleep(_LOOK_S)
+    async def _drive(self, goal: Pose2D, on_progress: Callable[[float], None]) -> Outcome[Any] | None:
+        """On the link: one goal to its end; None: who had taken it was out of reach."""
+        with suppress(TimeoutError):
+            async with asyncio.timeout(BACK_S):
+                while self._unwatched:  # noqa: ASYNC110 - set from other threads
+                    await asyncio.sleep(_LOOK_S)
+        if self._unwatched:
+            raise ActionFailure(FailureCode.HARDWARE, SILENT)
         self._tell_hold()
         target = stamped(goal, self._names.map_frame, self._clock.unix_ms())
         try:
             self._sending = asyncio.ensure_future(self._goals.send(target, on_progress, timeout_s=ASKING_S))
             sent = await asyncio.shield(self._sending)
-            while True:
-                with suppress(TransportTimeoutError):
-                    outcome: Outcome[Any] = await sent.outcome(timeout_s=_LONG_S)
-                    return outcome
+            with suppress(UnavailableError):
+                return await self._ended(sent)
+            self._unwatched = True
+            self._tell_hold()
+            return None
         except GoalRefusedError as error:
             raise ActionFailure(FailureCode.UNREACHABLE, NO_WAY) from error
         except TransportError as error:
             self._unwatched = True
             says = UNLIKE if isinstance(error, TypeMismatchError) else SILENT
             raise ActionFailure(FailureCode.HARDWARE, says, {"why": str(error)}) from error
+
+    async def _ended(self, sent: SentGoal[Any]) -> Outcome[Any]:
+        while True:
+            with suppress(TransportTimeoutError):
+                return await sent.outcome(timeout_s=_LONG_S)
 
     async def _there(self, work: Coroutine[Any, Any, T]) -> T:
         if self._link is None:
