@@ -273,14 +273,19 @@ async def test_who_repairs_what_goes_on_already_is_told_that_the_robot_stands() 
         await party.hears("I am still standing still. Say “carry on” when I should go on.")
 
 
+async def failed_while_it_stood(party: Crew) -> None:
+    """A step that fails behind a stop, with another one after it."""
+    party.body.broken.add("box")
+    await begun(party, look("door"))
+    party.command("stop")
+    await party.state("paused")
+    party.body.gate("box").set()
+    await party.state("held")
+
+
 async def test_who_repairs_a_step_that_failed_while_the_robot_stood_is_told_that_it_stands() -> None:
     async with crew("A") as party:
-        party.body.broken.add("box")
-        await begun(party, look("door"))
-        party.command("stop")
-        await party.state("paused")
-        party.body.gate("box").set()
-        await party.state("held")
+        await failed_while_it_stood(party)
         party.correct(look("lid"))
         await party.hears("I am still standing still. Say “carry on” when I should go on.")
         party.command("start")
@@ -292,12 +297,7 @@ async def test_a_person_who_answers_with_words_for_going_on_lets_who_stood_befor
     words: str,
 ) -> None:
     async with crew("A") as party:
-        party.body.broken.add("box")
-        await begun(party, look("door"))
-        party.command("stop")
-        await party.state("paused")
-        party.body.gate("box").set()
-        await party.state("held")
+        await failed_while_it_stood(party)
         answer = ChatAction(
             queue=(look("lid"),), targets=("A",), success=True, by=ENGINE, behalf=KIM, words=words
         )

@@ -9,11 +9,13 @@ from dataclasses import dataclass
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.lexicon import word_map, word_set
 
-__all__ = ["ORDINALS", "UNITS", "Amount", "amount_of", "direction_of", "in_unit", "is_compass"]
+__all__ = ["NUMBERS", "ORDINALS", "UNITS", "Amount", "amount_of", "direction_of", "in_unit", "is_compass"]
 
-_SMALL = """zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen
+_SMALL = """one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen
 sixteen seventeen eighteen nineteen"""
-_ONES = {word: number for number, word in enumerate(_SMALL.split())} | {"twice": 2, "thrice": 3}
+NUMBERS = {word: number for number, word in enumerate(_SMALL.split(), 1)}
+"""What things are called by."""
+_ONES = NUMBERS | {"zero": 0, "twice": 2, "thrice": 3}
 _ROUND = "twenty thirty forty fifty sixty seventy eighty ninety"
 _TENS = {word: 10 * tens for tens, word in enumerate(_ROUND.split(), 2)} | {"fourty": 40}
 UNITS = word_map("""m:m metre:m meter:m metres:m meters:m cm:cm centimetre:cm centimeter:cm centimetres:cm
@@ -22,10 +24,10 @@ degrees:degrees deg:degrees °:degrees mm:mm millimetres:mm millimeters:mm secon
 minute:min minutes:min min:min hour:h hours:h radians:radians""")
 _LENGTHS = frozenset({"m", "cm", "inches", "feet", "yards", "mm"})
 _ANGLES = frozenset({"degrees", "radians"})
-ORDINALS = {
-    "first": 0, "1st": 0, "second": 1, "2nd": 1, "third": 2, "3rd": 2, "fourth": 3, "4th": 3, "fifth": 4,
-    "5th": 4, "last": -1, "final": -1,
-}  # fmt: skip
+_IN_ROW = "first second third fourth fifth sixth seventh eighth ninth tenth eleventh twelfth"
+ORDINALS = {word: at for at, word in enumerate(_IN_ROW.split())} | {"last": -1, "final": -1}
+ORDINALS |= {f"{at}{'th' if at > 3 else ('st', 'nd', 'rd')[at - 1]}": at - 1 for at in range(1, 13)}
+"""Place in a row, from 0 on or from its end."""
 _SAID_SO = word_set("""about at least another by around exactly roughly approximately more some for only
 just maybe turn of a an the and like half quarter full hundred couple uh um to your circle say perhaps""")
 

@@ -6,19 +6,15 @@ import re
 from collections.abc import Sequence
 from typing import Final
 
+from parley.language.builtin.amounts import NUMBERS, ORDINALS
 from parley.language.builtin.lexicon import stem
 from parley.world.object_map import MapObject
 
 __all__ = ["with_numbers"]
 
-_SAID: Final = """one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen
-sixteen
-seventeen eighteen nineteen twenty"""
-_WORDS: Final = {word: number for number, word in enumerate(_SAID.split(), start=1)}
-_IN_ROW: Final = "first second third fourth fifth sixth seventh eighth ninth tenth eleventh twelfth"
-_ORDINALS: Final = {word: number for number, word in enumerate(_IN_ROW.split(), start=1)}
+_ORDINALS: Final = [word for word, at in ORDINALS.items() if at >= 0 and word.isalpha()]
 _MARK: Final = r"(?:(?:number|no\.?|nr\.?|#) ?)?"
-_ONE: Final = rf"(?:\d+|{'|'.join(_WORDS)})"
+_ONE: Final = rf"(?:\d+|{'|'.join(NUMBERS)})"
 _ROW: Final = rf"{_MARK}{_ONE}(?:(?:, and |, | and | to | through | or | ?[-–] ?){_MARK}{_ONE})*"
 _COUNTED: Final = r"(?:more|last|final|times?|by|of|(?:minute|second|hour|metre|meter|picture|photo|time)s?)"
 _BEHIND: Final = re.compile(
@@ -53,7 +49,7 @@ def with_numbers(text: str, places: Sequence[MapObject]) -> str:
 
     def before(found: re.Match[str]) -> str:
         numbers, which = known.get(stem(found["kind"].lower()), set()), found["which"].lower()
-        number = _ORDINALS.get(which) or int(which.rstrip("stndrh"))
+        number = ORDINALS[which] + 1 if which in ORDINALS else int(which.rstrip("stndrh"))
         whole = numbers == set(range(1, len(numbers) + 1))
         return f"{found['kind']} {number}" if whole and number in numbers else found[0]
 
@@ -61,4 +57,4 @@ def with_numbers(text: str, places: Sequence[MapObject]) -> str:
 
 
 def _number(said: str) -> int:
-    return _WORDS.get(said.lower()) or int(said)
+    return NUMBERS.get(said.lower()) or int(said)
