@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from parley.gate.assent import assent_of, begins_with_no
+from parley.gate.assent import assent_of, begins_with_no, gives_up, takes_all_back
 
 
 @pytest.mark.parametrize(
@@ -87,3 +87,41 @@ def test_whatever_begins_with_a_no_is_no_yes(said: str, negated: bool) -> None:
 def test_who_is_offered_a_look_may_say_yes_in_these_words(said: str) -> None:
     assert assent_of(said, ["Ada"], to_see=True) is True
     assert assent_of(said, ["Ada"]) is None
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "go to the desk, never mind",
+        "go to the desk but never mind",
+        "and bring the... no never mind",
+        "can you check the, oh never mind",
+        "take a picture of the desk, actually don't",
+        "go to the desk, no wait, don't",
+        "go to the desk. Actually no.",
+        "go to the desk, no, I've changed my mind",
+    ],
+)
+def test_all_is_taken_back_that_somebody_began_to_say(said: str) -> None:
+    assert takes_all_back(said)
+    assert gives_up(said)
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "never mind",
+        "no, never mind",
+        "never mind, go to the desk",
+        "go to the desk, never mind the lamp",
+        "if the box is shut, leave it",
+        "look for the box, and if it is there, never mind",
+        "tell Kim: never mind",
+        "take the box or leave it",
+        "are you there or no",
+        "go to the desk, no",
+        "shall I drop it, or no?",
+    ],
+)
+def test_what_is_said_otherwise_is_not(said: str) -> None:
+    assert not takes_all_back(said)

@@ -7,7 +7,7 @@ import unicodedata
 from collections.abc import Sequence
 from typing import Final
 
-__all__ = ["assent_of", "begins_with_no", "gives_up"]
+__all__ = ["assent_of", "begins_with_no", "gives_up", "takes_all_back"]
 
 _YES: Final = frozenset({
     "yes", "yes please", "yes do", "yes do it", "yes do that", "yes go ahead", "yeah", "yep", "yup", "ok",
@@ -21,8 +21,9 @@ _NO: Final = frozenset({
     "no", "nope", "nah", "no thanks", "no thank you", "no do not", "do not", "do not do it", "do not do that",
     "please do not", "rather not", "better not", "never mind", "leave it", "no leave it", "rejected",
     "no way", "not now", "not yet", "certainly not", "absolutely not", "of course not", "no not now",
-    "no not yet", "no never", "never", "not at all", "negative", "no no", "no no no", "no i do not",
-    "no that is wrong", "that is wrong", "wrong", "forget it", "no forget it", "no stop", "no wait",
+    "no not yet", "no never", "no never mind", "never", "not at all", "negative", "no no", "no no no",
+    "no i do not", "no that is wrong", "that is wrong", "wrong", "forget it", "no forget it", "no stop",
+    "no wait",
     "ei", "ei aitäh", "ära tee", "ei ära tee", "pole vaja", "ei ole vaja", "mitte praegu", "ei mitte",
     "kindlasti mitte", "vale", "ei taha", "ära",
 })  # fmt: skip
@@ -135,7 +136,36 @@ _ONE_OF_THEM: Final = re.compile(r"\b(?:not (?:that|this|those|the|like|what)|wr
 
 def gives_up(text: str, names: Sequence[str] = ()) -> bool:
     """Whether a whole utterance is a no to a question of which one is meant, and not to one of them alone."""
+    if takes_all_back(text):
+        return True
     return assent_of(text, names) is False and not _ONE_OF_THEM.search(text)
+
+
+_AT_LAST: Final = re.compile(
+    r"[\w'’].*?(?:\s*[,.;!…–—]|\s+-|(?=\s\w))\s*"
+    r"(?P<led>(?:\b(?:no|oh|ah|um|uh|hm+|well|ok|okay|actually|wait|sorry|hang on|hold on|"
+    r"on second thoughts?)[\s,.!…–—-]+)*)(?P<but>but\s+)?"
+    r"(?:(?P<plain>never ?mind(?: it| that)?|forget (?:it|that)|scratch that|scrap that|"
+    r"i(?:['’]ve| have)? changed my mind)|"
+    r"do(?:n['’]?t| not)(?: bother)?|(?:drop|cancel|leave) (?:it|that)|not now|better not|rather not|no)"
+    r"\W*",
+    re.IGNORECASE | re.DOTALL,
+)
+_BOUND: Final = re.compile(
+    r"\b(?:if|unless|when(?:ever)?|until|in case|say|tell|ask|shout|write|says?|said)\b", re.IGNORECASE
+)
+
+
+def takes_all_back(text: str) -> bool:
+    """Whether somebody takes back in the end what they began to say: "and bring the ... oh, never mind".
+
+    "If it is shut, leave it" does not.
+    """
+    found = _AT_LAST.fullmatch(text.strip())
+    if found is None or text.rstrip().endswith("?") or _BOUND.search(text) or assent_of(text) is False:
+        return False
+    marked = re.search(r"[,.;!…–—-]\s*$", text[: found.start("led")]) is not None
+    return bool(found["led"] or (found["plain"] and (found["but"] or marked)))
 
 
 def begins_with_no(text: str) -> bool:

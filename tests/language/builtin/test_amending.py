@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from parley.cli.actions import catalogue_with
-from parley.language.builtin.decision import Ask, Decision, Do
+from parley.language.builtin.decision import Answer, Ask, Decision, Do
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.world.object_map import MapObject
 from tests.language.builtin.worlds import situation
@@ -125,3 +125,8 @@ def test_words_that_change_what_is_meant_are_not_left_out(said: str) -> None:
 def test_words_that_only_look_so_take_nothing_back(said: str) -> None:
     made = decided(said)
     assert isinstance(made, Ask) or driven(said) == ["dock", "press"]
+
+
+@pytest.mark.parametrize("said", ["go to the dock, never mind", "check the... no, forget it"])
+def test_what_is_taken_back_as_a_whole_is_left(said: str) -> None:
+    assert decided(said) == Answer("All right, then I leave it.")

@@ -271,7 +271,7 @@ class ChatInterface(Node):
                 unasked and (moves or stands or self._known.is_under_way(target))
             )
             turns = question is None and control in (None, "stop")
-            objects = moves and not offered and control is None and opens_with_no(said.message)
+            objects = moves and not (offered or refuses) and control is None and opens_with_no(said.message)
             if wanted_back:
                 self._leave(target, said)
             elif behind and turns:  # "wait, is it open?"

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
 
-from parley.gate.assent import gives_up
+from parley.gate.assent import gives_up, takes_all_back
 from parley.gate.control import control_of
 from parley.language.base import Situation
 from parley.language.builtin.answers import most_asked
@@ -65,7 +65,8 @@ _ANSWER: Final = 10
 def beforehand(heard: Heard) -> Decision | None:
     """What is decided without reading orders."""
     situation, reading, lexicon, again = heard.situation, heard.reading, heard.lexicon, heard.again
-    said = emergency(heard) or _about_itself(heard)
+    left = Answer("All right, then I leave it.") if takes_all_back(situation.message) else None
+    said = emergency(heard) or left or _about_itself(heard)
     if said is not None:
         return said
     asked = situation.dialogue.asked
