@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from parley.agents.chat.texts import asks_back, still_standing
 from parley.language.base import Situation
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.dialogue.state import Dialogue, Order
@@ -281,6 +282,15 @@ async def test_a_look_goes_with_the_way_to_what_is_looked_at(message: str, looks
 async def test_what_stands_beside_a_step_of_the_plan_can_be_asked(message: str, words: str) -> None:
     answer = await ENGINE.interpret(given(message, "box", "gate", "desk", "lamp"))
     assert (answer.message_response, answer.queue, answer.system_cmd) == (words, (), ())
+
+
+async def test_a_yes_to_nothing_from_who_had_it_stand_is_told_how_it_goes_on() -> None:
+    running = given("ok", "box")
+    held = replace(running, dialogue=replace(running.dialogue, plan="paused"))
+    answer = await ENGINE.interpret(held)
+    assert "say “carry on”" in answer.message_response.lower()
+    assert not asks_back(answer.message_response)
+    assert still_standing(answer.message_response, "ok", paused=True) == answer.message_response
 
 
 @pytest.mark.parametrize(

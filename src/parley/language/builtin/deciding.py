@@ -390,6 +390,8 @@ def _without_order(heard: Heard, facts: tuple[Told, ...]) -> Decision:
     if not situation.question and situation.dialogue.asked is None and gives_up(situation.message):
         return Answer("All right.")
     if assent_of(situation.message) and not situation.question and situation.dialogue.asked is None:
+        if situation.dialogue.plan == "paused":
+            return Answer("I am still standing still. Say “carry on” when I should go on.")
         return Ask("I have not asked anything that a yes would answer. What shall I do, and with what?")
     if "need" in reading.acts:
         return Ask("What can I do about it? Tell me what to bring, or where to go.")
