@@ -130,3 +130,16 @@ def test_words_that_only_look_so_take_nothing_back(said: str) -> None:
 @pytest.mark.parametrize("said", ["go to the dock, never mind", "check the... no, forget it"])
 def test_what_is_taken_back_as_a_whole_is_left(said: str) -> None:
     assert decided(said) == Answer("All right, then I leave it.")
+
+
+@pytest.mark.parametrize(
+    ("said", "where"),
+    [
+        ("go from bay A to the dock", ["bay A", "dock"]),
+        ("patrol from the dock to the press and then back to bay A", ["dock", "press", "bay A"]),
+        ("drive from here to the dock", ["dock"]),
+        ("head on over to the press", ["press"]),
+    ],
+)
+def test_a_way_leads_from_where_it_begins(said: str, where: list[str]) -> None:
+    assert driven(said) == where

@@ -363,6 +363,7 @@ def told(said: str, *before: str, **more: object) -> Decision:
         ("which crate is furthest?", "The new crate is"),
         ("which is closer, the gate or the new crate?", "The new crate is"),
         ("how far is the old crate from the gate?", "By my map they are about 7 metres apart."),
+        ("how far is it from the old crate to the gate?", "By my map they are about 7 metres apart."),
         ("what's around here?", "By my map: the old crate"),
     ],
 )

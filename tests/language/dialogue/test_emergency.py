@@ -167,3 +167,24 @@ def test_who_politely_asks_for_help_is_asked_for_what(message: str) -> None:
 def test_to_be_told_of_danger_is_no_danger_yet(message: str, alarms: bool) -> None:
     made = ENGINE.decide(situation(message))
     assert (isinstance(made, Ask) and made.alarms) is alarms
+
+
+@pytest.mark.parametrize(
+    ("said", "alarms"),
+    [
+        ("the fire is out", False),
+        ("The smoke has cleared.", False),
+        ("ok the fire has been put out", False),
+        ("the dog is gone", False),
+        ("the forklift is gone", False),
+        ("the fire is out of control", True),
+        ("the smoke is back", True),
+        ("the fire is out, but Ruth is hurt", True),
+        ("the child is gone", True),
+    ],
+)
+def test_what_is_over_alarms_nobody(said: str, alarms: bool) -> None:
+    made = ENGINE.decide(situation(said))
+    assert (isinstance(made, Ask) and made.alarms) is alarms
+    if not alarms and ("fire" in said or "smoke" in said):
+        assert made == Answer("I am glad to hear that.")

@@ -438,14 +438,19 @@ def _how_long(situation: Situation, about: str) -> str:
     return f"{_left_time(dialogue).strip() or 'I have only just begun: I can tell in a moment.'}{more}"
 
 
+_ENDS: Final = re.compile(r"(?:^| )(?:from|to|and|between|apart) ")
+
+
 def _how_far(situation: Situation, about: str) -> str:
     """How far something of the map is, from here or another thing; of "it", how long the way still takes."""
-    both = [thing for part in about.split(" from ") for thing in _things(situation, part)]
-    if " from " in about and len(both) == 2:
+    about = re.sub(r"^(?:from|between) (?:here|you|where you are) (?:to|and) ", "", about)
+    between = about.startswith(("from ", "between ", "apart ")) or " from " in about
+    both = [thing for part in _ENDS.split(about) for thing in _things(situation, part)] if between else []
+    if len(both) == 2:
         gap_m = both[0].gap_m(both[1].x_m, both[1].y_m)
         return f"By my map they are about {round(max(gap_m, 2.0))} metres apart."
     things = _things(situation, about)
-    if len(things) != 1 or " from " in about:
+    if len(things) != 1 or between:
         return _how_long(situation, about) if situation.dialogue.steps and not things else ""
     name = called(things[0].description)
     return f"{name[:1].upper()}{name[1:]} is {lies(things[0], situation.objects, situation.robot_pose)}."

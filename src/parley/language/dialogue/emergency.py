@@ -16,7 +16,7 @@ from parley.language.dialogue.map_words import named, named_alone, rooms
 from parley.language.dialogue.standing import tells_in_case
 from parley.language.lexicon import word_set
 
-__all__ = ["NO_ALARM", "emergency", "is_emergency"]
+__all__ = ["NO_ALARM", "danger_is_past", "emergency", "is_emergency"]
 
 _FALSE: Final = (
     r"(?:(?:(?:no|it was|it is|it's|that was|that's|just|only|a|an|the|sorry|it) )*(?:false alarm|"
@@ -24,7 +24,13 @@ _FALSE: Final = (
     r"(?:all|everything|everybody|everyone|it|we|he|she|they)(?: is|'s| are|'re)? "
     r"(?:ok|okay|good|fine|clear|well|safe|all right|alright|under control))"
 )
-NO_ALARM: Final = re.compile(rf"{_FALSE}(?: (?:and |so |now )?{_FALSE})*(?: now| again)?")
+_OVER: Final = (
+    r"(?:(?:and|so|ok|okay|well|now) )*(?:the|that|this|your|our) (?P<what>(?:(?!is |are |was )[\w-]+ ){1,3})"
+    r"(?:is|are|was|were|has|have)(?: (?:all|been|now|already|finally))* "
+    r"(?:gone|out|over|away|cleared|cleaned|mopped|put out|under control|dealt with|stopped)"
+    r"(?: (?:up|now|again|already|away))*"
+)
+NO_ALARM: Final = re.compile(rf"(?:{_FALSE}(?: (?:and |so |now )?{_FALSE})*(?: now| again)?)|(?:{_OVER})")
 _PIECE: Final = re.compile(
     r"\w.*?(?=[.,;:!?]+(?:\s|$)|\s+(?:and\s+)?(?:so|please|can you|could you|would you)\b|$)",
     re.IGNORECASE | re.DOTALL,
@@ -62,7 +68,7 @@ def emergency(heard: Heard) -> Decision | None:
         del ends[1]  # "look for smoke, gas" is a list
     ends = [one for one in ends if {*_danger(one, lexicon)}.isdisjoint(names)]  # a "fire door" is none
     alarms = "alarm" in acts or any(_calls(one, lexicon, reader) for one in ends)
-    calm = "question" in acts or not alarms or _is_calm(situation, tokens, lexicon)
+    calm = "question" in acts or not alarms or _is_calm(situation, tokens, lexicon) or _is_over(text, lexicon)
     if not suffers and (calm or _does_something(tokens, lexicon) or tells_in_case(text)):
         return None
     order, told = _beside(text, pieces, lexicon, reader, again)
@@ -135,6 +141,20 @@ def _is_calm(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon) ->
         for token in words
     )
     return len(words) > _CRY and not _danger(situation.message, lexicon) and all(plain)
+
+
+def danger_is_past(text: str, lexicon: Lexicon) -> bool:
+    """Whether nothing is said but that what somebody was in danger of is over: "the fire is out"."""
+    return bool(_danger(text, lexicon)) and _is_over(text, lexicon)
+
+
+def _is_over(text: str, lexicon: Lexicon) -> bool:
+    """Whether it says of a thing that it is there no more: "the fire is out"; of a person that alarms."""
+    words = re.sub(r"['’]s\b", " is", text.lower()).replace("'", "").split()
+    found = re.fullmatch(_OVER, " ".join(words).strip(" .!"))
+    return found is not None and not any(
+        is_somebody(word) or word in lexicon.classes["persons"] for word in found["what"].split()
+    )
 
 
 def _does_something(tokens: Sequence[Token], lexicon: Lexicon) -> bool:

@@ -92,6 +92,10 @@ _REPORTING: Final = re.compile(
     r"as)\s+you(?:\s+(?:are|have|get)|['’](?:re|ve))\s+(?:all\s+)?(?:done|finished|through|there|arrived|ready))\W*$",
     re.IGNORECASE,
 )
+_MOVING: Final = r"(?P<go>go|drive|walk|run|move|head|travel|patrol|ride)(?: (?:back|straight|over))?"
+_FROM: Final = (
+    r"(?P<a>(?!(?:left|right|side|top|front|\d)\b)(?:(?!(?:to|and|from|then|or)\b)[\w'’-]+ ?){1,5}?)"
+)
 _PLAINER: Final = (
     (_WAY, ""), (_REPORTING, ""), (_AT_LAST, " then"), (_NAMED_FIRST, r"\g<be> \g<what>"), (_ROUND, "go to"),
     (re.compile(r"(?<=\w), the one (?=(?:in|near|by|next to|on|at|behind|under|beside)\b)", re.I), " "),
@@ -103,6 +107,9 @@ _PLAINER: Final = (
     (re.compile(r"\btake his (picture|photo)\b", re.I), r"take a \1 of him"),
     (re.compile(r"\btake their (picture|photo)s?\b", re.I), r"take a \1 of them"),
     (re.compile(r"\btake ((?-i:[A-Z])\w+)['’]s (picture|photo)\b", re.I), r"take a \2 of \1"),
+    (re.compile(rf"\b{_MOVING} from (?:here|there|where you are(?: now)?) to (?=\w)", re.I), r"\g<go> to "),
+    (re.compile(rf"\b{_MOVING} from {_FROM} to (?=\w)", re.I), r"go to \g<a> and then to "),
+    (re.compile(r"\b(go|head|come|drive|move) on (?=(?:over|down|out) )", re.I), r"\1 "),
     (re.compile(r"\bback(?: to)? where you (?:started|began|were|came)\b(?: from| before)?", re.I), "back"),
 )  # fmt: skip
 _TELLING: Final = re.compile(

@@ -26,7 +26,7 @@ from parley.language.dialogue import facts
 from parley.language.dialogue.answers import answer, differences
 from parley.language.dialogue.changes import Change, before_all, change_of, reordered, texts_of, visits
 from parley.language.dialogue.choosing import choice_of, in_order, tells
-from parley.language.dialogue.emergency import NO_ALARM, emergency, is_emergency
+from parley.language.dialogue.emergency import NO_ALARM, danger_is_past, emergency, is_emergency
 from parley.language.dialogue.following import followed
 from parley.language.dialogue.indirect import PROMISE, due, put_off
 from parley.language.dialogue.map_words import Named, in_room, named, named_alone, rooms
@@ -66,7 +66,8 @@ def beforehand(heard: Heard) -> Decision | None:
     """What is decided without reading orders."""
     situation, reading, lexicon, again = heard.situation, heard.reading, heard.lexicon, heard.again
     left = Answer("All right, then I leave it.") if takes_all_back(situation.message) else None
-    said = emergency(heard) or left or _about_itself(heard)
+    past = Answer("I am glad to hear that.") if danger_is_past(situation.message, lexicon) else None
+    said = emergency(heard) or left or _about_itself(heard) or past
     if said is not None:
         return said
     asked = situation.dialogue.asked
