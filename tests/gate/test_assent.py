@@ -120,6 +120,7 @@ def test_all_is_taken_back_that_somebody_began_to_say(said: str) -> None:
         "take the box or leave it",
         "are you there or no",
         "go to the desk, no",
+        "scrap the whole thing, I've changed my mind",
         "shall I drop it, or no?",
     ],
 )

@@ -7,6 +7,8 @@ import unicodedata
 from collections.abc import Sequence
 from typing import Final
 
+from parley.gate.control import control_of
+
 __all__ = ["assent_of", "begins_with_no", "gives_up", "takes_all_back"]
 
 _YES: Final = frozenset({
@@ -164,7 +166,10 @@ def takes_all_back(text: str) -> bool:
     found = _AT_LAST.fullmatch(text.strip())
     if found is None or text.rstrip().endswith("?") or _BOUND.search(text) or assent_of(text) is False:
         return False
-    marked = re.search(r"[,.;!…–—-]\s*$", text[: found.start("led")]) is not None
+    began = text.strip()[: found.start("led")]
+    if control_of(began.rstrip(" ,.;!…–—-")) is not None:  # "drop it all, I changed my mind"
+        return False
+    marked = re.search(r"[,.;!…–—-]\s*$", began) is not None
     return bool(found["led"] or (found["plain"] and (found["but"] or marked)))
 
 
