@@ -8,7 +8,7 @@ from contextlib import asynccontextmanager
 
 import pytest
 
-from parley.agents.planner.unattended import PRESENCE, SILENT_S, Absence, UnattendedPlans
+from parley.agents.planner.unattended import LATE_S, PRESENCE, SILENT_S, Absence, UnattendedPlans
 from parley.messages import topics
 from parley.messages.attendance import Attendance, Unattended
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput
@@ -177,3 +177,27 @@ async def test_somebody_who_is_back_in_time_changes_nothing() -> None:
         here.node.look()
         await settled()
         assert here.orders == []
+
+
+@pytest.mark.parametrize(("after_s", "waits"), [(LATE_S - 1, True), (LATE_S, False)])
+async def test_who_orders_where_nobody_is_connected_needs_no_page(after_s: float, *, waits: bool) -> None:
+    async with ward("hold") as here:
+        here.robots.tell(topics.PLAN, PlanUpdate(target="A", state="idle"))
+        await here.alone(after_s)
+        here.robots.tell(topics.CHAT_INPUT, ChatInput(message="go", targets=("A",)))
+        here.robots.tell(topics.PLAN, PlanUpdate(target="A", state="running"))
+        await settled()
+        await here.alone()
+        assert bool(here.orders) is waits
+        assert bool(here.said) is waits
+
+
+async def test_whoever_looks_in_later_and_hangs_up_leaves_it_alone_again() -> None:
+    async with ward("hold") as here:
+        await here.alone(LATE_S)
+        here.robots.tell(topics.CHAT_INPUT, ChatInput(message="go", targets=("A",)))
+        await settled()
+        here.people(1)
+        await settled()
+        await here.alone()
+        assert len(here.orders) == 1

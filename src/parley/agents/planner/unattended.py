@@ -23,6 +23,8 @@ PRESENCE: Final = Principal(kind="program", name="presence", key="presence")
 SILENT_S: Final = 15.0
 """Wall time after which nobody counts as connected through a server that tells nothing any more."""
 LOOK_S: Final = 1.0
+LATE_S: Final = 5.0
+"""What those who hang up had sent by then is still on its way."""
 
 _TEXTS: Final[dict[Unattended, str]] = {
     "go_on": "Nobody is connected any more. I go on with what I was told.",
@@ -78,6 +80,8 @@ class UnattendedPlans(Node):
         """Where each robot stood when it was heard of first."""
         self._settled: set[str] = set()
         """Robots that did their part in this absence."""
+        self._elsewhere: set[str] = set()
+        """Robots with an order of somebody who needs no page: nobody was connected when it came, or since."""
 
     async def open(self) -> None:
         """See `Node.open`."""
@@ -94,8 +98,9 @@ class UnattendedPlans(Node):
         since_s = self._absence.since_s(now_s)
         if since_s is None:
             self._settled.clear()
+            self._elsewhere.clear()
         elif now_s - since_s >= self._after_s:
-            for robot in sorted(self._running - self._settled):
+            for robot in sorted(self._running - self._settled - self._elsewhere):
                 self._settled.add(robot)
                 self._settle(robot)
 
@@ -109,6 +114,10 @@ class UnattendedPlans(Node):
         self.look()
 
     def _on_input(self, said: ChatInput) -> None:
+        now_s = self._clock.wall_s()
+        since_s = self._absence.since_s(now_s)
+        if since_s is not None and now_s - since_s >= LATE_S:
+            self._elsewhere.update(said.targets)
         if said.unattended is not None:
             self._choices |= dict.fromkeys(said.targets, said.unattended)
 
