@@ -333,6 +333,7 @@ class Engines(OpenedTogether):
                 rules=rules,
                 claim=turn.claim,
                 answers_for_all=not self._config.temoto,
+                foreign_planner=self._config.foreign_planner,
             )
         )
         turn.changed = engine.changed

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -182,6 +183,47 @@ async def test_malformed_graphs_are_refused_with_a_reason(text: str, code: str) 
         await rig.until(lambda: rig.rejections)
         assert rig.rejections[0].problems[0].code == code
         assert not rig.events
+
+
+def fly(instance_id: int) -> dict[str, Any]:
+    return {"name": "FlyTo", "instance_id": instance_id, "type": "sync"}
+
+
+@pytest.mark.parametrize("tells", [True, False])
+@pytest.mark.spec("12.5-better", "12.6")
+async def test_a_planner_that_reads_only_feedback_is_told_there_what_was_refused(*, tells: bool) -> None:
+    async with rigged(foreign_planner=tells) as rig:
+        rig.start(planner_chain("g", [node("NoOp"), fly(1)]))
+        rig.start("{")
+        rig.modify(planner_chain("nowhere", [node("NoOp")]))
+        await rig.until(lambda: len(rig.rejections) == 3)
+        if not tells:
+            assert rig.feedback == []
+            return
+        at_fault = {"g": ("FlyTo_1", "A has no action 'FlyTo'"), "nowhere": ("NoOp_0", "nowhere")}
+        await rig.until(lambda: all(f'"graph_name": "{name}"' in str(rig.feedback) for name in at_fault))
+        for name, (step, why) in at_fault.items():
+            told = rig.last_feedback(name)
+            states = {f"{item['name']}_{item['instance_id']}": item["state"] for item in told["actions"]}
+            assert told["graph_state"] == "ERROR"
+            assert [full for full, state in states.items() if state == "ERROR"] == [step]
+            [failed] = [item for item in told["actions"] if item["state"] == "ERROR"]
+            assert why in failed["runtime"]["messages"][-1]["message"]
+
+
+async def test_what_runs_is_told_to_such_a_planner_as_it_stands_beside_what_was_refused() -> None:
+    async with rigged(foreign_planner=True) as rig:
+        first = node("WaitFor", 0, seconds=60)
+        rig.start(planner_chain("g", [first]))
+        await rig.until_graph("g", "RUNNING")
+        rig.modify(planner_chain("g", [first, fly(1)]), continue_from="WaitFor_0")
+        await rig.until(lambda: "FlyTo" in str(rig.feedback))
+        told = rig.last_feedback("g")
+        assert told["graph_state"] == "RUNNING"
+        assert {item["name"]: item["state"] for item in told["actions"]} == {
+            "WaitFor": "RUNNING",
+            "FlyTo": "ERROR",
+        }
 
 
 async def test_an_empty_start_names_no_graph_and_is_refused() -> None:

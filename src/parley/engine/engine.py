@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import AsyncExitStack, nullcontext
+from contextlib import AsyncExitStack, nullcontext, suppress
 from typing import Any, TypeVar
 
 import structlog
@@ -19,6 +19,7 @@ from parley.engine.interrupted import Interrupted
 from parley.engine.journal import Journal
 from parley.engine.orders import Orders
 from parley.engine.presence import Presence
+from parley.engine.refused import as_feedback
 from parley.engine.runs import GraphRuns
 from parley.engine.stop import EmergencyStop
 from parley.engine.stop_listener import StopListener
@@ -49,7 +50,7 @@ from parley.umrf.catalogue import Catalogue, info_of
 from parley.umrf.check import reasons
 from parley.umrf.executor import STOP_TIMEOUT_S, GraphRun
 from parley.umrf.io import open_graph, read_loaded, write_descriptor, write_graph
-from parley.umrf.model import NOTHING, Graph, Result
+from parley.umrf.model import BUSY, NOTHING, Graph, Result
 from parley.umrf.motion import Motions
 from parley.umrf.node_run import NodeRun
 from parley.umrf.transition import Transition
@@ -103,6 +104,8 @@ class ActionEngine(OpenedTogether):
         claim: Tells what the robot wants of places that only so many may be in.
         answers_for_all: Whether it answers `umrf_graph_get` too if no other engine does; that of TeMoto has
             no other name to answer by.
+        foreign_planner: Whether it is told what to do by a planner that reads nothing but feedback: what is
+            refused is told there too.
     """
 
     def __init__(
@@ -124,6 +127,7 @@ class ActionEngine(OpenedTogether):
         rules: RuleBook | None = None,
         claim: Callable[[], PassageClaim | None] = lambda: None,
         answers_for_all: bool = True,
+        foreign_planner: bool = False,
     ) -> None:
         super().__init__()
         self.actor = actor
@@ -132,6 +136,7 @@ class ActionEngine(OpenedTogether):
         self._journal, self._rules, self._claim = journal, rules, claim
         self._robot, self._heartbeat_s = robot, heartbeat_s
         self._own_line, self._answers_for_all = line is None, answers_for_all
+        self._foreign_planner = foreign_planner
         self._line = line or StopLine()
         self._motions = Motions(clock, self._ignored)
         self._make_context = make_context
@@ -331,15 +336,30 @@ class ActionEngine(OpenedTogether):
             self._reject(what, message.umrf_graph_name, error.problems)
             return
         told = message.umrf_graph_name
-        self._inbox.put(name or told, lambda: self._told(what, told, lambda: command(message, read)))
+        self._inbox.put(name or told, lambda: self._told(what, told, lambda: command(message, read), read))
 
-    def _told(self, what: str, name: str, command: Callable[[], None]) -> None:
-        """Carry out `command`, and say so if it is refused."""
+    def _told(
+        self, what: str, name: str, command: Callable[[], None], read: Callable[[], Graph] | None = None
+    ) -> None:
+        """Carry out `command`, and say so if it is refused; `read` reads the graph that it brings."""
         try:
             command()
         except GraphRefusedError as error:
             problems = reasons(error, self._catalogue, actor=self.actor)
             self._reject(what, error.graph_name or name, problems)
+            if self._foreign_planner and read is not None:
+                with suppress(GraphRefusedError):  # what cannot be read has no steps
+                    self._explain(what, read(), problems)
+
+    def _explain(self, what: str, sent: Graph, problems: Sequence[Problem]) -> None:
+        run = self.runs.get(sent.name)
+        held = run.snapshot() if run is not None else None
+        if held is not None and what == topics.GRAPH_START.name and held.state not in BUSY:
+            held = None  # it is over: what was sent would have taken its place
+        told = as_feedback(sent, held, problems, self._clock.unix_ms())
+        if told is not None:
+            history = (write_graph(told),)
+            self._publish(topics.GRAPH_FEEDBACK, ros.UmrfGraphFeedback(actor=self.actor, history=history))
 
     def start(
         self,
