@@ -17,6 +17,7 @@ from parley.robots.ros_senses import ATTENDS_S, DETECTOR_S, PICTURE_S, PICTURES,
 from parley.robots.ros_values import detected
 from parley.transport.base import Publisher, Transport
 from parley.transport.local import LocalTransport
+from tests.transport.backends import until
 
 TOPICS = RosTopics(camera="camera", detections="detections")
 BOX = (Detection("box", 100, (0, 0, 10, 10), confidence=0.9),)
@@ -151,7 +152,8 @@ async def test_a_base_is_not_blamed_for_the_time_in_which_nobody_here_could_hear
         await settled()
         camera.clock.advance(10.0)
         assert camera.senses.fresh(1.0), "as soon as it goes on"
-        await asyncio.sleep(ATTENDS_S)
+        assert not camera.senses.returned(1.0)
+        await until(lambda: camera.senses.returned(1.0))
         camera.senses._on_odom(ros_robot.Odometry())
         camera.clock.advance(10.0)
         for fresh in (True, False):

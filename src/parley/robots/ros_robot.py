@@ -23,6 +23,7 @@ from parley.errors import (
     UnavailableError,
 )
 from parley.extras import needs
+from parley.gate.fence import Fence
 from parley.messages.actions import GoalState
 from parley.messages.ros_robot import Bool, PoseStamped, Twist, TwistStamped, Vector3
 from parley.messages.status import Trouble
@@ -48,8 +49,9 @@ LOOP_S: Final = 0.5
 """A program whose loop stands for so long does not watch its robot."""
 ASKING_S: Final = 2.0
 READY_S: Final = 10.0
-BACK_S: Final = 5.0
-"""Until a goal is called off, by who may have been out of reach, the next one waits for so long."""
+BACK_S: Final = 30.0
+"""So long it may take until all hear each other again, once this program or a link was away: who looks for
+others does so every 8 s at last, and 15 s were seen. The robot stands meanwhile."""
 SEEN_S: Final = 1.0
 """After this it is seen whether somebody tells a map."""
 MAP_S: Final = 3.0
@@ -360,7 +362,7 @@ class RosRobot(RobotBase):
         left_s, began = timeout_s, self.pose()
         try:
             while True:
-                while self._is_held(control):  # noqa: ASYNC110 - whoever pauses says so by a function
+                while self._is_held(control) or self._is_away():  # noqa: ASYNC110 - said by functions
                     await asyncio.sleep(_LOOK_S)
                 started_s = self._clock.now_s()
                 if await self._attempt(goal, control, left_s, began):
@@ -385,7 +387,7 @@ class RosRobot(RobotBase):
             while not drive.done():
                 await asyncio.wait([drive], timeout=_LOOK_S)
                 self._check()
-                if self._is_held(control):
+                if self._is_away() or self._is_held(control):
                     return False
                 if self._clock.now_s() > until_s:
                     raise ActionFailure(FailureCode.TIMED_OUT, LATE)
@@ -403,11 +405,18 @@ class RosRobot(RobotBase):
             return True
         raise self._goals.failure(outcome, moved=self.pose().distance_to(began) > self.radius_m)
 
+    def _is_away(self) -> bool:
+        """Whether its base is out of reach as this program was away, and both look for each other."""
+        return not self._senses.fresh(LOST_S) and self._senses.returned(BACK_S)
+
+    def _breaks(self, fence: Fence) -> bool:
+        return not self._is_away() and super()._breaks(fence)  # it stands until it is heard
+
     def _check(self) -> None:
         """Raises `ActionFailure` if it cannot drive."""
         if self._senses.emergency:
             raise ActionFailure(FailureCode.HARDWARE, PRESSED)
-        if not self._senses.fresh(LOST_S):
+        if not (self._senses.fresh(LOST_S) or self._is_away()):
             raise ActionFailure(FailureCode.HARDWARE, SILENT)
 
     async def _drive(self, goal: Pose2D, on_progress: Callable[[float], None]) -> Outcome[Any] | None:

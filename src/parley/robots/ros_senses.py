@@ -38,6 +38,8 @@ WATCHED_S: Final = 5.0
 """For so long after a picture was asked for the camera is listened to: pictures are what fills a network."""
 
 ATTENDS_S: Final = 0.1
+GONE_S: Final = 1.0
+"""Who hears nothing for longer may have to be found by others again."""
 SILENT: Final = sentence("My base does not answer.")
 
 _TYPES: Final[dict[type[Any], str]] = {
@@ -169,6 +171,8 @@ class Senses:
         self._heard_s = 0.0
         self._attended_s: float | None = None
         """When somebody here could hear last; None: always."""
+        self._back_s: float | None = None
+        """When somebody here could hear again, after others may have taken this process for gone."""
         self._sweep: tuple[ros_robot.LaserScan, float] | None = None
         self._camera: list[Subscription] = []
         self._taken: deque[_Picture] = deque()
@@ -219,6 +223,12 @@ class Senses:
             now_s = self._wall_s()
             late_s = now_s - self._attended_s - 2 * ATTENDS_S
             self._heard_s = min(now_s, self._heard_s + max(0.0, late_s))
+            if late_s > GONE_S:
+                self._back_s = now_s
+
+    def returned(self, within_s: float) -> bool:
+        """Whether this process was away until lately: if the base is not heard, that may be why."""
+        return self._back_s is not None and self._wall_s() - self._back_s <= within_s
 
     def missing(self) -> str:
         """What is not heard, for engineers."""
