@@ -143,3 +143,26 @@ def test_what_is_taken_back_as_a_whole_is_left(said: str) -> None:
 )
 def test_a_way_leads_from_where_it_begins(said: str, where: list[str]) -> None:
     assert driven(said) == where
+
+
+@pytest.mark.parametrize(
+    ("said", "frames", "about"),
+    [
+        ("look behind you", ["TURN", "LOOK"], "180.0"),
+        ("look to your left", ["TURN", "LOOK"], "left"),
+        ("look ahead", ["LOOK"], "what can be seen here"),
+        ("take a picture of whoever is at the dock", ["GO", "GO", "PHOTO"], "dock"),
+        ("check the press's bolts", ["GO", "GO", "LOOK"], "press's bolts"),
+    ],
+)
+def test_what_is_looked_at_is_turned_to(said: str, frames: list[str], about: str) -> None:
+    made = decided(said)
+    assert isinstance(made, Do), made
+    assert [deed.frame for deed in made.deeds] == frames
+    assert about in {str(value) for deed in made.deeds for value in deed.arguments.values()}
+
+
+@pytest.mark.parametrize("where", ["at the gate", "by the gate", "behind you"])
+@pytest.mark.parametrize("who", ["the person", "whoever is"])
+def test_no_picture_is_taken_of_who_is_at_a_place_that_nobody_knows(who: str, where: str) -> None:
+    assert isinstance(decided(f"take a picture of {who} {where}"), Ask)

@@ -117,7 +117,7 @@ class Builder(Doing):
         if wish.frame == "LOOK" and where is not None and not wish.has("TK") and self._leads(where):
             there = _seen_where(self._by_name(where))
             wish = replace(wish, fillers=tuple(there if f is where else f for f in wish.fillers))
-        if wish.frame == "PHOTO" and thing is not None and thing.words[0] == "what":
+        if wish.frame == "PHOTO" and thing is not None and thing.words[0] in _WHATEVER:
             wish = replace(wish, fillers=tuple(self._behind_what(f) for f in wish.fillers))
         if wish.frame == "PHOTO" and "PHOTO" not in self.skills and {*wish.verb.split()} & {"show", "see"}:
             wish = replace(wish, frame="LOOK")
@@ -142,13 +142,14 @@ class Builder(Doing):
         return replace(where, words=words, head=len(words) - 1, said=" ".join(words))
 
     def _behind_what(self, filler: Filler) -> Filler:
-        """The place alone of "what is behind the gate"."""
+        """The place alone of "what is behind the gate", "whoever is at the gate"."""
         leads = self.lexicon.classes["prepositions"] - {"is", "are", "'s"}
         at = next((n for n, word in enumerate(filler.words) if n and word in leads), 0)
-        if filler.words[0] != "what" or not at or at + 1 == len(filler.words):
+        if filler.words[0] not in _WHATEVER or not at or at + 1 == len(filler.words):
             return filler
         words = filler.words[at + 1 :]
-        return replace(filler, words=words, head=head_of(words, self.lexicon), said=" ".join(words))
+        place = replace(filler, words=words, head=head_of(words, self.lexicon), said=" ".join(words))
+        return place if link(words, place.head, self.situation.objects, self.lexicon).things else filler
 
     def _gathered(self, wish: Wish) -> Wish:
         """With things and the room in which they are as one role: "check all crates in the yard"."""
@@ -585,6 +586,7 @@ class Builder(Doing):
         return None
 
 
+_WHATEVER = word_set("what whatever who whoever")
 _STANDING = {
     "BRING": "TR", "TAKE": "T", "GIVE": "TR", "FIND": "T", "FOLLOW": "T", "PHOTO": "T", "GUIDE": "T",
     "SAY": "R", "PUT": "T", "ANSWER": "R", "COUNT": "T", "LOOK": "T",

@@ -26,6 +26,7 @@ from parley.world.object_map import MapObject
 
 __all__ = ["WITHIN", "Grounder", "Value"]
 
+_ELSEWHERE = word_set("at by near beside behind outside")
 _MOVABLE = word_set("TAKE BRING GIVE PUT FIND COUNT POUR CUT MIX COOK DO MAKE")
 
 
@@ -199,7 +200,10 @@ class Grounder:
         looked_for = looked_for or (frame in self.skills and self.skills[frame].is_by_hand)
         movable = frame in _MOVABLE and filler.role == "T" and looked_for
         movable = movable and not {*filler.words[1:]} & lexicon.classes["me"]
-        photo = frame == "PHOTO" and not self._akin(mention.text)  # it may be right in front of the robot
+        # It may be right in front of the robot, but not at a place that nobody knows.
+        here = {"you", *self.lexicon.classes["me"]} - ({"you"} if "behind" in rest else set())
+        elsewhere = not {*rest}.isdisjoint(_ELSEWHERE) and {*rest}.isdisjoint(here)
+        photo = frame == "PHOTO" and not self._akin(mention.text) and not elsewhere
         if movable or photo or frame == "BELOC" or (frame == "LOOK" and placed):
             called = as_said(mention.text, filler.text)
             return Value(called, with_article(called))

@@ -12,6 +12,7 @@ __all__ = ["as_said", "counted", "listed", "which_one", "with_article"]
 
 def as_said(words: str, text: str) -> str:
     """Words of a text as they stand in it, with the capitals of names."""
+    words = re.sub(r" (?=['’]s\b)", "", words)
     found = re.search(re.escape(words), text, re.IGNORECASE)
     return found[0] if found is not None else words
 

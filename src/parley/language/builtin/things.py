@@ -109,10 +109,13 @@ def link(words: Sequence[str], head: int, objects: Sequence[MapObject], lexicon:
 def whole_of(
     words: Sequence[str], head: int, objects: Sequence[MapObject], lexicon: Lexicon
 ) -> MapObject | None:
-    """The thing of which words name a part that no map knows: "the hinge of the gate"; never a person."""
-    name, _ = noun_phrase(words, head, lexicon)
+    """The thing of which words name a part that no map knows: "the hinge of the gate", "the gate's hinge"."""
+    name, rest = noun_phrase(words, head, lexicon)
     at = name.index("of") if "of" in name[:-1] else 0
-    if not at or name[at + 1] not in lexicon.classes["determiners"] or is_somebody(name[at - 1]):
+    said = (*name, *rest)
+    if "'s" in said[1:-1]:
+        name, at = ("of", *said[: said.index("'s")]), 0
+    elif not at or name[at + 1] not in lexicon.classes["determiners"] or is_somebody(name[at - 1]):
         return None
     whole = [*itertools.dropwhile(lexicon.classes["determiners"].__contains__, name[at + 1 :])]
     found = _best(whole, objects)

@@ -96,6 +96,7 @@ _MOVING: Final = r"(?P<go>go|drive|walk|run|move|head|travel|patrol|ride)(?: (?:
 _FROM: Final = (
     r"(?P<a>(?!(?:left|right|side|top|front|\d)\b)(?:(?!(?:to|and|from|then|or)\b)[\w'’-]+ ?){1,5}?)"
 )
+_ENDS: Final = r"(?=\W*$|\s*[,.;]| and\b| then\b)"
 _PLAINER: Final = (
     (_WAY, ""), (_REPORTING, ""), (_AT_LAST, " then"), (_NAMED_FIRST, r"\g<be> \g<what>"), (_ROUND, "go to"),
     (re.compile(r"(?<=\w), the one (?=(?:in|near|by|next to|on|at|behind|under|beside)\b)", re.I), " "),
@@ -109,6 +110,10 @@ _PLAINER: Final = (
     (re.compile(r"\btake ((?-i:[A-Z])\w+)['’]s (picture|photo)\b", re.I), r"take a \2 of \1"),
     (re.compile(rf"\b{_MOVING} from (?:here|there|where you are(?: now)?) to (?=\w)", re.I), r"\g<go> to "),
     (re.compile(rf"\b{_MOVING} from {_FROM} to (?=\w)", re.I), r"go to \g<a> and then to "),
+    (re.compile(rf"\blook (?:right )?behind you(?:rself)?{_ENDS}", re.I), "turn around and look around"),
+    (re.compile(rf"\blook (?:to (?:your|the) )?(left|right){_ENDS}", re.I),
+     r"turn \1 by 90 degrees and look around"),
+    (re.compile(rf"\blook (?:straight |right )?(?:ahead|in front of you){_ENDS}", re.I), "look around"),
     (re.compile(r"\b(go|head|come|drive|move) on (?=(?:over|down|out) )", re.I), r"\1 "),
     (re.compile(r"\bback(?: to)? where you (?:started|began|were|came)\b(?: from| before)?", re.I), "back"),
 )  # fmt: skip
