@@ -83,6 +83,7 @@ async def test_a_robot_that_has_everything_is_found_well(kind: str) -> None:
         ("discovery", "odometry", "TF", "clocks", "map", "scan", "camera", "Nav2", "velocities", "lock"), "ok"
     ) | {"button": "unused"}
     assert "is active" in seen["Nav2"].text
+    assert not any(finding.hinders for finding in seen.values())
 
 
 async def test_each_thing_that_is_wrong_is_said_with_how_to_mend_it() -> None:
@@ -107,6 +108,7 @@ async def test_each_thing_that_is_wrong_is_said_with_how_to_mend_it() -> None:
         ("button", "pressed", "Pull it out"),
     ):
         assert seen[subject].state == "wrong", subject
+        assert seen[subject].hinders, subject
         assert text in seen[subject].text
         assert any(word in seen[subject].remedy for word in mend.split("|")), seen[subject]
 

@@ -53,7 +53,16 @@ def examine_robot(file: RosRobotFile, name: str, network: NetworkSettings | None
         file: What it is like.
         name: How people call it.
         network: Where it is, if it has no address of its own.
+
+    Returns:
+        What it tells and takes; what is wrong or missing of the whole hinders: it could not be driven so.
     """
+    for finding in _examined(file, name, network):
+        hinders = finding.state == "wrong" or finding.subject == "robot"
+        yield replace(finding, needed=hinders)
+
+
+def _examined(file: RosRobotFile, name: str, network: NetworkSettings | None) -> Iterable[Finding]:
     try:
         transport = _transport(file, network)
         yield from asyncio.run(_Look(file, name).through(transport))

@@ -38,7 +38,7 @@ def command(
     name: Annotated[str, typer.Option(help="That robot's name.")] = "robot",
     json: Annotated[bool, typer.Option("--json", help="One JSON object per line.")] = False,
 ) -> None:
-    """Check this machine, and a robot. Exit code 1: Parley does not work without something."""
+    """Check this machine, and a robot. Exit code 1: Parley or the robot does not work so."""
     quiet_logs()
     chosen, broken = _settings(config)
     chosen = chosen.changed(language_settings(language, key_file))

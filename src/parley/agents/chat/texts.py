@@ -133,7 +133,7 @@ def still_standing(reply: str, message: str, *, paused: bool) -> str:
         reply = together(sentence(_NOTHING_TO_DO["stop"]), REST_LEFT if more else "")
     elif message.rstrip().endswith("?"):
         return reply
-    return together(reply, sentence(SAY_CARRY_ON)) if paused and "“carry on”" not in reply else reply
+    return together(reply, sentence(SAY_CARRY_ON)) if paused and "carry on" not in reply else reply
 
 
 def alarm(robot: str, words: str) -> str:
