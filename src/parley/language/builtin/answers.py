@@ -11,6 +11,7 @@ from typing import Final
 from parley.language.base import Situation
 from parley.language.builtin.decision import Answer
 from parley.language.builtin.facts import known_place, places
+from parley.language.builtin.in_rooms import inside, room_in
 from parley.language.builtin.lexicon import Lexicon, stem
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.saying import as_said, listed, with_article
@@ -102,15 +103,29 @@ _SOUGHT: Final = re.compile(
 def _among(things: Sequence[MapObject], situation: Situation, lexicon: Lexicon) -> Answer:
     """What the map knows of a kind: at the place that is named, else all of it."""
     tokens = tokenize(situation.message)
+    if _STATE.search(situation.message) is not None:
+        return Answer("How that is now I only see when I look there.")
     led = [at for at, token in enumerate(tokens) if token.low in lexicon.classes["prepositions"]]
     spots = named_alone(tokens[led[-1] :], situation.objects, lexicon) if led else []
     here = [item for item in things if any(one.gap_m(item.x_m, item.y_m) < _IN_M for one in spots)]
-    if spots and not here:
+    words = [token.low for token in tokens if token.is_word]
+    room, _ = room_in(words, situation.rooms, lexicon) if not spots else (None, ())
+    here = [item for item in things if item in inside(room, situation.objects)] if room else here
+    if (spots or room) and not here:
         return Answer("By my map there is none there. What is there now I only see when I look.")
     found = [with_article(item.description) for item in here or things]
     if len(found) == 1:
         return Answer(f"On my map there is {found[0]}.")
     return Answer(f"On my map there are {len(found)}: {listed(found)}.")
+
+
+_STATE: Final = re.compile(
+    r"^\W*(?:which|what) (?:of (?:the|your|our) )?(?:(?!(?:are|is|do|can)\b)[\w-]+ ){1,3}"
+    r"(?:needs?|look|looks|seems?|has|have (?!you\b)|(?:is|are|was|were) "
+    r"(?!(?:there|on|in|at|by|near|next|behind|under|beside|closest|nearest|they|the|your|my|it|known|called)\b)\w)",
+    re.IGNORECASE,
+)
+"""How things are: "which crates are open?"."""
 
 
 def most_asked(tokens: Sequence[Token], situation: Situation, lexicon: Lexicon) -> tuple[MapObject, ...]:
@@ -148,6 +163,7 @@ def look_asked_for(tokens: Sequence[Token], names: Sequence[Named], called: Cont
     asked = next((at for at in ends if tokens[at].text == "?"), len(tokens))  # a sentence of several
     first = max((at + 1 for at in ends if at + 1 < asked), default=0)
     said = [token.low for token in tokens[first:asked] if token.is_word and token.low not in called]
+    said = [word for at, word in enumerate(said) if word != "still" or at == len(said) - 1]
     low = list(itertools.dropwhile(_OPENING.__contains__, said))
     if len(names) == 1 and "or" in low[3:]:  # "is the gate open or closed?"
         low = low[: low.index("or", 3)]
@@ -156,6 +172,10 @@ def look_asked_for(tokens: Sequence[Token], names: Sequence[Named], called: Cont
     if not {*low[:1]} & {"is", "are", "has", "have"} or len(names) != 1:
         return ""
     being, rest = low[0], low[1:]
+    known = {word for thing in names[0].things for word in thing.description.lower().split()}
+    at = next((at for at, word in enumerate(rest) if word in ("on", "off")), 0)
+    if at and rest[at] in names[0].words and rest[at] not in known and rest[at + 1 : at + 2] == ["in"]:
+        return f"check if {' '.join(rest[:at])} {being} {' '.join(rest[at:])}"  # its name has the room
     if rest[:1] == ["there"] or (rest and rest[0] in _ANY):
         return f"check if {rest[0]} {being} {' '.join(rest[1:])}"
     start = len(rest) - len(names[0].words)
@@ -167,7 +187,8 @@ def look_asked_for(tokens: Sequence[Token], names: Sequence[Named], called: Cont
         (at for at in range(len(rest), 0, -1) if rest[at - len(names[0].words) : at] == [*names[0].words]), 0
     )
     subject, state = rest[:end], rest[end:]
-    if not state or len(subject) > len(names[0].words) + 1 or ({*state} & _PLACED and state != ["on"]):
+    switched = state[:1] == ["on"] and state[1:2] in ([], ["in"])  # "is the pump on in the yard?"
+    if not state or len(subject) > len(names[0].words) + 1 or ({*state} & _PLACED and not switched):
         return ""
     return f"check if {' '.join(subject)} {being} {' '.join(state)}"
 

@@ -24,6 +24,7 @@ from parley.language.builtin.own_words import own_words
 from parley.language.builtin.reading import Reading, read
 from parley.language.builtin.recovery import Repairer
 from parley.language.builtin.reply import explained, to_chat
+from parley.language.builtin.searching import searched_apart
 from parley.language.builtin.skills import SkillTable
 from parley.language.builtin.spans import Parse
 from parley.language.builtin.steady import Names, named, steadily
@@ -121,6 +122,7 @@ class BuiltinLanguage:
         names = _names(tuple(item.description for item in situation.objects))
         situation = replace(situation, message=self._meant(uncalled(situation, self._lexicon), names))
         said = with_numbers(in_turn(situation.message), situation.places)
+        said = searched_apart(said, situation.places, situation.rooms)
         situation = replace(situation, message=said)
         situation = self._with_past(replace(situation, message=with_names_for_ones(situation)))
         situation = replace(situation, memory=(*situation.memory, *in_mind(situation)))

@@ -12,7 +12,7 @@ from parley.language.builtin.things import head_of, link
 from parley.language.lexicon import word_set
 from parley.world.object_map import MapObject
 
-__all__ = ["group_of_rooms", "things_inside"]
+__all__ = ["group_of_rooms", "inside", "room_in", "things_inside"]
 
 _INSIDE: Final = word_set("in inside within of from")
 _ALL: Final = word_set("everything all every each whole thing things object objects stuff")
@@ -41,15 +41,15 @@ def group_of_rooms(
     whole = tuple(room for room in rooms if room.area is None or room.area.capacity is None)  # no passages
     if several and whole and {*_bare(words, lexicon)} - _ALL <= _ROOMS and _ROOMS & {*words}:
         return _without(Group(whole), left_out, lexicon)
-    room, said = _room_in(words, rooms, lexicon)
+    room, said = room_in(words, rooms, lexicon)
     if room is None:
         return None
-    inside = _inside(room, objects)
+    held = inside(room, objects)
     if {*_bare(said, lexicon)} <= _ALL:
-        if not inside:
+        if not held:
             return Group(doubt=f"My map has nothing in {with_article(room.description)}. What do you mean?")
-        return _without(Group(inside), left_out, lexicon)
-    found = group(said, inside, lexicon, left_out)
+        return _without(Group(held), left_out, lexicon)
+    found = group(said, held, lexicon, left_out)
     if (found is None or found.doubt) and len(only := things_inside(words, objects, rooms, lexicon)) == 1:
         return Group(only) if "both" not in words and group(said, objects, lexicon) else found
     if found is not None:
@@ -64,14 +64,14 @@ def things_inside(
     words: Sequence[str], objects: Sequence[MapObject], rooms: Sequence[MapObject], lexicon: Lexicon
 ) -> tuple[MapObject, ...]:
     """The things that words for one of a kind in a room may mean: "the crate in the yard"."""
-    room, said = _room_in(words, rooms, lexicon)
+    room, said = room_in(words, rooms, lexicon)
     if room is None or not _bare(said, lexicon):
         return ()
-    found = link(said, head_of(said, lexicon), _inside(room, objects), lexicon)
+    found = link(said, head_of(said, lexicon), inside(room, objects), lexicon)
     return found.things if found.kind in ("one", "several") else ()
 
 
-def _room_in(
+def room_in(
     words: Sequence[str], rooms: Sequence[MapObject], lexicon: Lexicon
 ) -> tuple[MapObject | None, Sequence[str]]:
     """The room at the end of words, and what stands before it."""
@@ -83,7 +83,8 @@ def _room_in(
     return None, words
 
 
-def _inside(room: MapObject, objects: Sequence[MapObject]) -> tuple[MapObject, ...]:
+def inside(room: MapObject, objects: Sequence[MapObject]) -> tuple[MapObject, ...]:
+    """The things that stand in a room."""
     return tuple(item for item in objects if room.area is not None and room.area.holds(item.x_m, item.y_m))
 
 
