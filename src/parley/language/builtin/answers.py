@@ -121,8 +121,9 @@ def _among(things: Sequence[MapObject], situation: Situation, lexicon: Lexicon) 
 
 _STATE: Final = re.compile(
     r"^\W*(?:which|what) (?:of (?:the|your|our) )?(?:(?!(?:are|is|do|can)\b)[\w-]+ ){1,3}"
-    r"(?:needs?|look|looks|seems?|has|have (?!you\b)|(?:is|are|was|were) "
-    r"(?!(?:there|on|in|at|by|near|next|behind|under|beside|closest|nearest|they|the|your|my|it|known|called)\b)\w)",
+    r"(?:needs?|look|looks|seems?|(?:is|are|was|were) "
+    r"(?!(?:there|on|in|at|by|near|next|behind|under|beside|closest|nearest|they|the|your|my|it|known|called|parked|kept|"
+    r"standing|stored|placed|located)\b)\w)",
     re.IGNORECASE,
 )
 """How things are: "which crates are open?"."""
