@@ -1,9 +1,11 @@
 /** What robots wait for a person to answer. */
 import { useMemo } from 'react';
 
-import { askedOf } from '@/live/questions';
+import { askedOf, openQuestions, type Questions } from '@/live/questions';
 import { useWorld } from '@/live/store';
 import type { ChatEntry, PlanView } from '@/live/types';
+
+import { answeredIn, useOutbox } from './outbox';
 
 interface Seen {
   chat: readonly ChatEntry[];
@@ -21,4 +23,11 @@ export function useAsked(): readonly ChatEntry[] {
   const chat = useWorld((world) => world.chat);
   const plans = useWorld((world) => world.plans);
   return useMemo(() => askedIn({ chat, plans }), [chat, plans]);
+}
+
+/** The newest question of each robot that what is written next would answer. */
+export function useOpenQuestions(): Questions {
+  const chat = useWorld((world) => world.chat);
+  const onTheirWay = useOutbox((outbox) => outbox.messages);
+  return useMemo(() => openQuestions(chat, answeredIn(onTheirWay)), [chat, onTheirWay]);
 }

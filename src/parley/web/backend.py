@@ -92,7 +92,7 @@ class Backend:
         self.view_listeners: list[Callable[[MapView], None]] = []
         self.picture_listeners: list[Callable[[tuple[str, str], Picture], None]] = []
         self._sending: set[str] = set()
-        """What is just being answered."""
+        """Keys of messages that are just being kept and sent."""
         self._keeping: set[asyncio.Task[None]] = set()
         self._policies: dict[str, str] = {}
         self._policy_by: dict[str, str] = {}

@@ -4,7 +4,7 @@ import { useTranslation } from 'react-i18next';
 
 import { useWorld } from '@/live/store';
 import type { ChatEntry } from '@/live/types';
-import { useAsked } from '@/state/asked';
+import { useAsked, useOpenQuestions } from '@/state/asked';
 import { draftKey, useDrafts } from '@/state/drafts';
 import { useMoment } from '@/state/moment';
 import { usePrefs } from '@/state/prefs';
@@ -21,8 +21,8 @@ import css from './chat-panel.module.css';
 import { useMay } from '@/state/me';
 import { Composer } from './composer';
 import { History } from './history';
-import { answeredIn, useOutbox } from '@/state/outbox';
-import { answering, conversation, openQuestions } from '@/live/questions';
+import { useOutbox } from '@/state/outbox';
+import { answering, conversation } from '@/live/questions';
 import { RobotTabs } from './robot-tabs';
 import { SearchBox } from './search-box';
 import { Suggestions } from './suggestions';
@@ -44,13 +44,14 @@ export function ChatPanel() {
   const [searching, setSearching] = useState(false);
   const input = useRef<HTMLTextAreaElement>(null);
 
-  const onTheirWay = useOutbox((outbox) => outbox.messages);
-  const questions = useMemo(() => openQuestions(chat, answeredIn(onTheirWay)), [chat, onTheirWay]);
+  const questions = useOpenQuestions();
   const entries = useMemo(() => conversation(chat, chosen), [chat, chosen]);
   const asked = useAsked();
   const askedHere = useMemo(() => conversation(asked, chosen), [asked, chosen]);
   const answer = useMemo(() => answering(questions, chosen), [questions, chosen]);
-  const onItsWay = onTheirWay.findLast((one) => one.targets.some((name) => chosen.includes(name)))?.text;
+  const onItsWay = useOutbox(
+    (outbox) => outbox.messages.findLast((one) => one.targets.some((name) => chosen.includes(name)))?.text,
+  );
   const lastSaid = useMemo(
     () => onItsWay ?? entries.findLast((entry) => entry.who === 'operator')?.message ?? '',
     [onItsWay, entries],

@@ -1,13 +1,10 @@
-import { useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { commandPlan, type PlanCommand } from '@/live/api';
 import { isEarlier, linesOf, OVER } from '@/live/lines';
-import { openQuestions } from '@/live/questions';
-import { useWorld } from '@/live/store';
 import type { PlanView, StepView } from '@/live/types';
+import { useOpenQuestions } from '@/state/asked';
 import { attempt } from '@/state/do';
-import { answeredIn, useOutbox } from '@/state/outbox';
 import { Button } from '@/ui/button';
 import { quoted, sentence } from '@/ui/words';
 
@@ -27,9 +24,7 @@ interface Props {
 export function PlanControls({ plan, onEdit }: Props) {
   const { t } = useTranslation('plan');
   const offer = usePutBack(plan);
-  const chat = useWorld((world) => world.chat);
-  const onTheirWay = useOutbox((outbox) => outbox.messages);
-  const asks = useMemo(() => openQuestions(chat, answeredIn(onTheirWay)).has(plan.robot), [chat, onTheirWay, plan.robot]);
+  const asks = useOpenQuestions().has(plan.robot);
   const order = (command: PlanCommand, step = '') => attempt(() => commandPlan(plan.robot, command, step));
   if (plan.kind !== 'plan' || RESTING.includes(plan.state)) return null;
   const standing = plan.state === 'paused' || plan.state === 'held';

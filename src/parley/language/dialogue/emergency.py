@@ -30,7 +30,7 @@ _OVER: Final = (
     r"(?:gone|out|over|away|cleared|cleaned|mopped|put out|under control|dealt with|stopped)"
     r"(?: (?:up|now|again|already|away))*"
 )
-NO_ALARM: Final = re.compile(rf"(?:{_FALSE}(?: (?:and |so |now )?{_FALSE})*(?: now| again)?)|(?:{_OVER})")
+NO_ALARM: Final = re.compile(rf"{_FALSE}(?: (?:and |so |now )?{_FALSE})*(?: now| again)?")
 _PIECE: Final = re.compile(
     r"\w.*?(?=[.,;:!?]+(?:\s|$)|\s+(?:and\s+)?(?:so|please|can you|could you|would you)\b|$)",
     re.IGNORECASE | re.DOTALL,

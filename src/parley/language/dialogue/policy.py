@@ -65,9 +65,9 @@ _ANSWER: Final = 10
 def beforehand(heard: Heard) -> Decision | None:
     """What is decided without reading orders."""
     situation, reading, lexicon, again = heard.situation, heard.reading, heard.lexicon, heard.again
-    left = Answer("All right, then I leave it.") if takes_all_back(situation.message) else None
-    past = Answer("I am glad to hear that.") if danger_is_past(situation.message, lexicon) else None
-    said = emergency(heard) or left or _about_itself(heard) or past
+    said = emergency(heard)
+    if said is None:
+        said = _LEFT if takes_all_back(situation.message) else _about_itself(heard)
     if said is not None:
         return said
     asked = situation.dialogue.asked
@@ -117,6 +117,20 @@ def _agreed(situation: Situation, reading: Reading, again: Again) -> Decision | 
     return replace(made, about=asked.words) if isinstance(made, Do) else None
 
 
+_LEFT: Final = Answer("All right, then I leave it.")
+
+
+def _calmed(heard: Heard) -> Answer | None:
+    """What is said to who tells that there is no danger, or none any more."""
+    situation, bare = heard.situation, heard.bare
+    past = danger_is_past(situation.message, heard.lexicon)
+    safe = NO_ALARM.fullmatch(bare) is not None
+    if (safe or past) and (is_emergency(situation) or bare.startswith("false alarm")):
+        more = " Say “carry on” when I should go on." if situation.queue else ""
+        return Answer(f"I am glad to hear that. I stay here.{more}")
+    return Answer("I am glad to hear that.") if past else None
+
+
 def _about_itself(heard: Heard) -> Decision | None:
     """A question about the robot, a wish to forget, a word to wait."""
     situation, bare = heard.situation, heard.bare
@@ -145,9 +159,8 @@ def _about_itself(heard: Heard) -> Decision | None:
         return Forget(tuple(entry.name for entry in lost), tuple(texts))
     if lost is not None and situation.memory and bare.startswith("forget") and not _known_plan(situation):
         return Answer("I know nothing of that, so there is nothing to forget.")
-    if NO_ALARM.fullmatch(bare) and (is_emergency(situation) or bare.startswith("false alarm")):
-        more = " Say “carry on” when I should go on." if situation.queue else ""
-        return Answer(f"I am glad to hear that. I stay here.{more}")
+    if (calmed := _calmed(heard)) is not None:
+        return calmed
     if is_thinking(situation.message if situation.question else bare):
         return Answer("Take your time. I wait.")
     return None
@@ -422,7 +435,7 @@ def _asked_again(made: Ask, heard: Heard) -> Ask | Answer | None:
     situation, reading, tokens = heard.situation, heard.reading, heard.tokens
     asked = situation.dialogue.asked
     if asked is not None and asked.where and gives_up(situation.message, situation.robots):
-        return Answer("All right, then I leave it.")
+        return _LEFT
     short = sum(token.is_word for token in tokens) <= _ANSWER
     answers = asked is not None and asked.choices and not (made.choices or made.offer or made.stops)
     told = "told" in reading.acts and tells([token.low for token in tokens if token.is_word])
@@ -432,7 +445,7 @@ def _asked_again(made: Ask, heard: Heard) -> Ask | Answer | None:
     if not {*asked.choices} <= {item.description for item in situation.objects}:
         return None
     if gives_up(situation.message, situation.robots) or _NONE.fullmatch(heard.bare):
-        return Answer("All right, then I leave it.")
+        return _LEFT
     return Ask(f"I did not understand that. {which_one(asked.choices)}", asked.choices, about=asked.words)
 
 
