@@ -177,7 +177,7 @@ async def test_of_a_bridge_that_does_not_tell_who_is_there_nothing_is_said_of_wh
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     async with robot("rosbridge") as (_, _, file, network):
-        monkeypatch.setattr("parley.transport.rosbridge.graph.TOPICS", replace(rosapi.TOPICS, name="/none"))
+        monkeypatch.setattr("parley.transport.rosbridge.census.TOPICS", replace(rosapi.TOPICS, name="/none"))
         seen = await found(file, network)
     assert (seen["discovery"].state, seen["odometry"].state) == ("missing", "ok")
     assert not {"Nav2", "velocities", "lock"} & set(seen)

@@ -35,8 +35,6 @@ APART_S: Final = 1.0
 _LONG_AGO_S: Final = 1e9
 """No clock of the wall shows so few seconds since 1970: it is a simulated one."""
 _NETWORK: Final = "Look at `network` of the settings (--config): what is said of it above has to be ok first."
-_BRIDGE: Final = "/rosbridge_websocket"
-"""The node of the bridge, as its launch file calls it."""
 _AT_ONCE: Final = "call_services_in_new_thread", "send_action_goals_in_new_thread"
 _SILENT: Final = (
     "Somebody would tell it there, and nothing comes: look whether it does (ros2 topic hz), and into the log "
@@ -261,15 +259,18 @@ class _Look:
 
     async def _bridge(self, transport: Transport) -> list[Finding]:
         """Whether a bridge does several things at once; only a robot's own, and only one of ROS 2 says so."""
-        seen = any(end.name == f"{_BRIDGE}/get_parameters" and end.role == "server" for end in self._ends)
-        if not seen or not self._file.address:
+        if not self._file.address:
             return []
+        from parley.transport.rosbridge.census import BRIDGE
         from parley.transport.rosbridge.rosapi import GET_PARAM, GetParamRequest
+
+        if not any(end.name == f"{BRIDGE}/get_parameters" and end.role == "server" for end in self._ends):
+            return []
 
         off: list[str] = []
         for option in _AT_ONCE:
             with suppress(TransportError):
-                asked = GetParamRequest(f"{_BRIDGE}:{option}")
+                asked = GetParamRequest(f"{BRIDGE}:{option}")
                 if (await transport.call(GET_PARAM, asked, timeout_s=ASKS_S)).value == "false":
                     off.append(option)
         text = f"without {' and '.join(off)} a call or drive keeps all else back, and the lock shuts"

@@ -8,10 +8,12 @@ from typing import Final
 from parley.messages.topics import Service
 
 __all__ = [
-    "ACTION_SERVERS", "GET_PARAM", "NODES", "NODE_DETAILS", "SERVICE_TYPE", "TOPICS", "ActionServersRequest",
-    "ActionServersResponse", "GetParamRequest", "GetParamResponse", "NodeDetailsRequest",
-    "NodeDetailsResponse", "NodesRequest", "NodesResponse", "ServiceTypeRequest", "ServiceTypeResponse",
-    "TopicsRequest", "TopicsResponse",
+    "ACTION_SERVERS", "GET_PARAM", "NODES", "NODE_DETAILS", "PUBLISHERS", "SERVICES", "SERVICE_TYPE",
+    "SUBSCRIBERS", "TOPICS", "ActionServersRequest", "ActionServersResponse", "GetParamRequest",
+    "GetParamResponse", "NodeDetailsRequest", "NodeDetailsResponse", "NodesRequest", "NodesResponse",
+    "PublishersRequest", "PublishersResponse", "ServiceTypeRequest", "ServiceTypeResponse",
+    "ServicesRequest", "ServicesResponse", "SubscribersRequest", "SubscribersResponse", "TopicsRequest",
+    "TopicsResponse",
 ]  # fmt: skip
 
 
@@ -26,6 +28,18 @@ class TopicsResponse:
 
     topics: tuple[str, ...] = ()
     types: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class ServicesRequest:
+    """rosapi_msgs/srv/Services, request."""
+
+
+@dataclass(frozen=True, slots=True)
+class ServicesResponse:
+    """rosapi_msgs/srv/Services, response."""
+
+    services: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +68,34 @@ class NodeDetailsResponse:
     subscribing: tuple[str, ...] = ()
     publishing: tuple[str, ...] = ()
     services: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class PublishersRequest:
+    """rosapi_msgs/srv/Publishers, request."""
+
+    topic: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class PublishersResponse:
+    """rosapi_msgs/srv/Publishers, response: names of nodes."""
+
+    publishers: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class SubscribersRequest:
+    """rosapi_msgs/srv/Subscribers, request."""
+
+    topic: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class SubscribersResponse:
+    """rosapi_msgs/srv/Subscribers, response: names of nodes."""
+
+    subscribers: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,9 +141,16 @@ class GetParamResponse:
 
 GET_PARAM: Final = Service("/rosapi/get_param", GetParamRequest, GetParamResponse, "rosapi_msgs/srv/GetParam")
 TOPICS: Final = Service("/rosapi/topics", TopicsRequest, TopicsResponse, "rosapi_msgs/srv/Topics")
+SERVICES: Final = Service("/rosapi/services", ServicesRequest, ServicesResponse, "rosapi_msgs/srv/Services")
 NODES: Final = Service("/rosapi/nodes", NodesRequest, NodesResponse, "rosapi_msgs/srv/Nodes")
 NODE_DETAILS: Final = Service(
     "/rosapi/node_details", NodeDetailsRequest, NodeDetailsResponse, "rosapi_msgs/srv/NodeDetails"
+)
+PUBLISHERS: Final = Service(
+    "/rosapi/publishers", PublishersRequest, PublishersResponse, "rosapi_msgs/srv/Publishers"
+)
+SUBSCRIBERS: Final = Service(
+    "/rosapi/subscribers", SubscribersRequest, SubscribersResponse, "rosapi_msgs/srv/Subscribers"
 )
 SERVICE_TYPE: Final = Service(
     "/rosapi/service_type", ServiceTypeRequest, ServiceTypeResponse, "rosapi_msgs/srv/ServiceType"

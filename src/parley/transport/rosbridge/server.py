@@ -1,4 +1,4 @@
-"""A small rosbridge server with no ROS behind it: clients of it see each other as nodes of one ROS.
+"""A small rosbridge server with no ROS behind it: clients of it see each other in the node of the bridge.
 
 It speaks the protocol of rosbridge_suite 2.x and answers what `rosapi` answers, so that programs and tests
 run without a robot. Messages are passed on as they come: whether they fit their types, their ends find out.
@@ -22,6 +22,7 @@ from websockets.exceptions import ConnectionClosed
 from parley.errors import InvalidMessageError, TransportError
 from parley.messages.actions import GoalState
 from parley.transport.rosbridge.actions import REFUSED
+from parley.transport.rosbridge.census import BRIDGE
 from parley.transport.rosbridge.frames import MAX_BYTES, Frame, read_frame, text_of, write_frame
 from parley.transport.rosbridge.throttle import Throttle
 from parley.transport.rosbridge.values import Ros
@@ -33,6 +34,8 @@ WAITING: Final = 10_000
 
 ROSAPI: Final = "/rosapi"
 """The node that tells who is there."""
+
+_DEAD: Final = "rosapi ended: it was asked about a node that is not there, as that of ROS 2 does"
 
 log = structlog.get_logger(__name__)
 
@@ -107,8 +110,17 @@ class RosbridgeServer:
         package = "rosapi_msgs/srv" if ros == 2 else "rosapi"
         self._rosapi: dict[str, tuple[str, Callable[[Any], Frame]]] = {
             "/rosapi/topics": (f"{package}/Topics", self._topics),
+            "/rosapi/services": (f"{package}/Services", self._services),
             "/rosapi/nodes": (f"{package}/Nodes", self._nodes),
             "/rosapi/node_details": (f"{package}/NodeDetails", self._node_details),
+            "/rosapi/publishers": (
+                f"{package}/Publishers",
+                lambda args: {"publishers": self._holders(args, lambda client: client.publishes)},
+            ),
+            "/rosapi/subscribers": (
+                f"{package}/Subscribers",
+                lambda args: {"subscribers": self._holders(args, lambda client: client.hears)},
+            ),
             "/rosapi/service_type": (f"{package}/ServiceType", self._service_type),
             "/rosapi/action_servers": (f"{package}/GetActionServers", self._action_servers),
         }
@@ -335,21 +347,32 @@ class RosbridgeServer:
         shown = {topic: ros_type for topic, ros_type in types.items() if "/_" not in topic}
         return {"topics": list(shown), "types": list(shown.values())}
 
+    def _services(self, _: Any) -> Frame:
+        return {"services": [*self._rosapi, *self._shown(each.answers for each in self._clients)]}
+
     def _nodes(self, _: Any) -> Frame:
-        return {"nodes": [ROSAPI, *(client.name for client in self._clients)]}
+        return {"nodes": [BRIDGE, ROSAPI]}
 
     def _node_details(self, args: Any) -> Frame:
         if args == {"node": ROSAPI}:
             return {"subscribing": [], "publishing": [], "services": list(self._rosapi)}
-        client = next((each for each in self._clients if {"node": each.name} == args), None)
-        if client is None:
-            return {"subscribing": [], "publishing": [], "services": []}
-        ends: dict[str, Iterable[str]] = {
-            "subscribing": client.hears,
-            "publishing": client.publishes,
-            "services": client.answers,
+        if args != {"node": BRIDGE}:
+            self._rosapi.clear()
+            log.error(_DEAD)
+            raise _RefusedError(_DEAD)
+        return {
+            "subscribing": self._shown(each.hears for each in self._clients),
+            "publishing": self._shown(each.publishes for each in self._clients),
+            "services": self._shown(each.answers for each in self._clients),
         }
-        return {role: [name for name in names if "/_" not in name] for role, names in ends.items()}
+
+    def _holders(self, args: Any, has: Callable[[_Client], Iterable[str]]) -> list[str]:
+        topic = args.get("topic", "") if isinstance(args, dict) else ""
+        return [BRIDGE] if topic in self._shown(has(each) for each in self._clients) else []
+
+    @staticmethod
+    def _shown(names: Iterable[Iterable[str]]) -> list[str]:
+        return sorted({name for some in names for name in some if "/_" not in name})
 
     def _service_type(self, args: Any) -> Frame:
         service = args.get("service", "") if isinstance(args, dict) else ""
