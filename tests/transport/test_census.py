@@ -16,6 +16,7 @@ ROBOT = {
     LASER: rosapi.NodeDetailsResponse(publishing=("/scan",)),
 }
 HEARS = Endpoint("/cmd_vel", "std_msgs/msg/String", "subscription")
+RESETS = Endpoint("/base/reset", "std_srvs/srv/Empty", "server")
 SCANS = Endpoint("/scan", "std_msgs/msg/String", "publisher")
 
 
@@ -24,11 +25,18 @@ class Rosapi:
 
     def __init__(self, nodes: dict[str, rosapi.NodeDetailsResponse], *topics: str) -> None:
         self.nodes, self.hidden, self.alive = dict(nodes), set(topics), True
-        self.calls: list[tuple[str, str]] = []
+        self.called: tuple[str, ...] = ()
+        """Services that somebody calls, and perhaps nobody answers."""
+        self.details: list[str] = []
+        self.topics: list[str] = []
+        """What was asked about."""
         self._answers: dict[Any, Callable[[Any], Any]] = {
             rosapi.TOPICS: self._topics,
             rosapi.SERVICES: lambda _: rosapi.ServicesResponse(
-                tuple(name for has in self.nodes.values() for name in has.services)
+                (*self.called, *(name for has in self.nodes.values() for name in has.services))
+            ),
+            rosapi.SERVICE_NODE: lambda request: rosapi.ServiceNodeResponse(
+                next((node for node, has in self.nodes.items() if request.service in has.services), "")
             ),
             rosapi.SERVICE_TYPE: lambda _: rosapi.ServiceTypeResponse("std_srvs/Empty"),
             rosapi.NODES: lambda _: rosapi.NodesResponse(tuple(self.nodes)),
@@ -44,9 +52,8 @@ class Rosapi:
     async def answer(self, service: Any, request: Any) -> Any:
         if not self.alive or service not in self._answers:
             raise UnavailableError("nobody answers")
-        about = getattr(request, "topic", getattr(request, "node", ""))
-        if about:
-            self.calls.append((service.name.rpartition("/")[2], about))
+        if hasattr(request, "topic"):
+            self.topics.append(request.topic)
         return self._answers[service](request)
 
     def _topics(self, _: Any) -> rosapi.TopicsResponse:
@@ -55,6 +62,7 @@ class Rosapi:
         return rosapi.TopicsResponse(topics, ("std_msgs/String",) * len(topics))
 
     def _details(self, request: rosapi.NodeDetailsRequest) -> rosapi.NodeDetailsResponse:
+        self.details.append(request.node)
         self.alive = request.node in self.nodes
         if not self.alive:
             raise UnavailableError("rosapi ended")
@@ -63,17 +71,29 @@ class Rosapi:
 
 async def test_a_node_is_asked_about_once_when_it_stays_and_forgotten_as_it_goes() -> None:
     bridge, census = Rosapi(ROBOT, "/cmd_vel"), Census()
-    assert await census.take(bridge.answer) == {Endpoint("/base/reset", "std_srvs/srv/Empty", "server")}
-    assert not bridge.calls
+    assert not {HEARS, SCANS} & await census.take(bridge.answer)
+    assert not bridge.details
     assert not census.is_settled
     for _ in range(3):
-        assert {HEARS, SCANS} < await census.take(bridge.answer)
+        assert {HEARS, SCANS, RESETS} < await census.take(bridge.answer)
     assert census.is_settled
-    assert bridge.calls == [("node_details", BASE), ("node_details", LASER)]
+    assert bridge.details == [BASE, LASER]
     del bridge.nodes[BASE]  # its topic stays: others talk on it
     found = await census.take(bridge.answer)
-    assert HEARS not in found
+    assert not {HEARS, RESETS} & found
     assert SCANS in found
+
+
+async def test_a_service_that_is_only_called_has_no_server_and_a_closed_one_loses_it() -> None:
+    bridge, census = Rosapi(ROBOT), Census()
+    bridge.called = ("/base/reset", "/lamp/on")
+    for _ in range(2):
+        found = await census.take(bridge.answer)
+    assert [end.name for end in found if end.role == "server"] == ["/base/reset"]
+    bridge.nodes[BASE] = rosapi.NodeDetailsResponse()
+    for _ in bridge.called:
+        found = await census.take(bridge.answer)
+    assert RESETS not in found
 
 
 async def test_a_node_that_comes_and_goes_is_never_asked_about() -> None:
@@ -81,7 +101,7 @@ async def test_a_node_that_comes_and_goes_is_never_asked_about() -> None:
     for look in range(4):
         bridge.nodes = {f"/short_{look}": rosapi.NodeDetailsResponse(publishing=("/scan",))}
         await census.take(bridge.answer)
-    assert not bridge.calls
+    assert not bridge.details
 
 
 async def test_what_a_known_node_opens_later_is_found_by_its_topic() -> None:
@@ -96,7 +116,7 @@ async def test_a_topic_of_hidden_nodes_is_asked_about_once() -> None:
     bridge, census = Rosapi({}, "/echoed"), Census()
     for _ in range(3):
         await census.take(bridge.answer)
-    assert bridge.calls == [("publishers", "/echoed"), ("subscribers", "/echoed")]
+    assert bridge.topics == ["/echoed", "/echoed"]  # publishers, subscribers
 
 
 async def test_who_comes_to_or_leaves_an_own_topic_is_found_within_a_round() -> None:

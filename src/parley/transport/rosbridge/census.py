@@ -13,6 +13,7 @@ from parley.transport.rosbridge.rosapi import (
     NODE_DETAILS,
     NODES,
     PUBLISHERS,
+    SERVICE_NODE,
     SERVICE_TYPE,
     SERVICES,
     SUBSCRIBERS,
@@ -21,6 +22,7 @@ from parley.transport.rosbridge.rosapi import (
     NodeDetailsRequest,
     NodesRequest,
     PublishersRequest,
+    ServiceNodeRequest,
     ServicesRequest,
     ServiceTypeRequest,
     SubscribersRequest,
@@ -36,10 +38,17 @@ BRIDGE: Final = "/rosbridge_websocket"
 goes, so does the connection."""
 
 ROUND_LOOKS: Final = 5
-"""Within so many looks, who else is on each topic with an end of this process is asked."""
+"""Within so many looks, who is at the other side of each end of this process is asked."""
 
 _PARTS: Final = ("send_goal", "cancel_goal", "get_result")
 _OTHER_SIDE: Final = {"publisher": "subscription", "subscription": "publisher"}
+_ROSAPI: Final = "/rosapi/"
+_OF_A_NODE: Final = frozenset({
+    "describe_parameters", "get_loggers", "get_logger_levels", "get_parameter_types", "get_parameters",
+    "get_type_description", "list_parameters", "set_logger_level", "set_logger_levels", "set_parameters",
+    "set_parameters_atomically",
+})  # fmt: skip
+"""How services are called that a node of ROS has as long as it lives."""
 
 
 class Census:
@@ -54,11 +63,11 @@ class Census:
     def __init__(self) -> None:
         self._nodes: frozenset[str] = frozenset()
         self._asked: set[str] = set()
-        self._held: dict[str, dict[str, set[str]]] = {"publisher": {}, "subscription": {}}
-        """By role and topic: which nodes have it."""
-        self._nobodys: set[str] = set()
-        """Topics of which `rosapi` names nobody: hidden nodes have them."""
-        self._turn = 0
+        self._held: dict[str, dict[str, set[str]]] = {"publisher": {}, "subscription": {}, "server": {}}
+        """By role, and name of topic or service: which nodes have it."""
+        self._nobodys: dict[str, Set[str]] = {"topic": set(), "service": set()}
+        """Names for which `rosapi` names nobody: of hidden nodes, or services that are only called."""
+        self._looks = 0
         self._service_types: dict[str, str] = {}
 
     @property
@@ -80,10 +89,20 @@ class Census:
         actions = await _actions(ask)
         await self._learn_types(services, ask)
         await self._ask_about_nodes(ask)
-        await self._ask_about_topics(types.keys(), own, ask)
-        ends = _ends(services, self._service_types, "server")
-        for role, held in self._held.items():
-            ends |= _ends((topic for topic, nodes in held.items() if nodes), types, role)
+        self._forget_all_but(types.keys(), services)
+        for name, role in self._in_turn(services, own):
+            await self._ask_who(name, role, ask)
+        if self.is_settled:  # what still is nobody's, a node opened after it was asked about
+            await self._ask_whose("topic", types.keys(), ask)
+            await self._ask_whose("service", services, ask)
+        self._looks += 1
+        types |= self._service_types
+        ends = {
+            Endpoint(name, types.get(name, ""), role, True)
+            for role, held in self._held.items()
+            for name, nodes in held.items()
+            if nodes
+        }
         ends |= {
             Endpoint(f"{name}/_action/{part}", "", "server", True) for name in actions for part in _PARTS
         }
@@ -100,49 +119,54 @@ class Census:
                 has = await ask(NODE_DETAILS, NodeDetailsRequest(node))
                 self._note(node, "publisher", has.publishing)
                 self._note(node, "subscription", has.subscribing)
+                self._note(node, "server", has.services)
                 self._asked.add(node)
 
-    def _note(self, node: str, role: str, topics: Iterable[str]) -> None:
+    def _note(self, node: str, role: str, names: Iterable[str]) -> None:
         held = self._held[role]
         for nodes in held.values():
             nodes.discard(node)
-        for topic in topics:
-            held.setdefault(topic, set()).add(node)
+        for name in names:
+            held.setdefault(name, set()).add(node)
 
-    async def _ask_about_topics(self, topics: Set[str], own: Iterable[Endpoint], ask: Ask) -> None:
+    def _forget_all_but(self, topics: Set[str], services: Set[str]) -> None:
         for role, held in self._held.items():
-            self._held[role] = {topic: nodes for topic, nodes in held.items() if topic in topics}
-        self._nobodys &= topics
-        for topic, role in self._in_turn(topics, own):
-            await self._ask_about_topic(topic, role, ask)
-        if not self.is_settled:
-            return
-        known = {topic for held in self._held.values() for topic, nodes in held.items() if nodes}
-        for topic in sorted(topics - known - self._nobodys):  # a node opened it after it was asked about
-            for role in self._held:
-                await self._ask_about_topic(topic, role, ask)
-            if not any(held[topic] for held in self._held.values()):
-                self._nobodys.add(topic)
+            there = services if role == "server" else topics
+            self._held[role] = {name: nodes for name, nodes in held.items() if name in there}
+        self._nobodys = {
+            "topic": self._nobodys["topic"] & topics,
+            "service": self._nobodys["service"] & services,
+        }
 
-    def _in_turn(self, topics: Set[str], own: Iterable[Endpoint]) -> Iterable[tuple[str, str]]:
-        """Of own topics, the next ones: each with the role at its other side."""
-        sides = sorted(
-            {
-                (end.name, _OTHER_SIDE[end.role])
-                for end in own
-                if end.role in _OTHER_SIDE and end.name in topics
-            }
+    def _in_turn(self, services: Set[str], own: Iterable[Endpoint]) -> Iterable[tuple[str, str]]:
+        """Names with the role of whom to ask for: some at the other side of own ends, and a service."""
+        sides = sorted({(end.name, _OTHER_SIDE[end.role]) for end in own if end.role in _OTHER_SIDE})
+        yield from sides[self._looks % ROUND_LOOKS :: ROUND_LOOKS]
+        closable = sorted(
+            name
+            for name in services
+            if name.rpartition("/")[2] not in _OF_A_NODE and not name.startswith(_ROSAPI)
         )
-        start, count = self._turn, -(-len(sides) // ROUND_LOOKS)
-        self._turn = (start + count) % max(1, len(sides))
-        return (sides[at % len(sides)] for at in range(start, start + count))
+        if closable:
+            yield closable[self._looks % len(closable)], "server"
 
-    async def _ask_about_topic(self, topic: str, role: str, ask: Ask) -> None:
+    async def _ask_whose(self, kind: str, names: Set[str], ask: Ask) -> None:
+        roles = ("server",) if kind == "service" else ("publisher", "subscription")
+        known = {name for role in roles for name, nodes in self._held[role].items() if nodes}
+        for name in sorted(names - known - self._nobodys[kind]):
+            if not any([await self._ask_who(name, role, ask) for role in roles]):
+                self._nobodys[kind] |= {name}
+
+    async def _ask_who(self, name: str, role: str, ask: Ask) -> bool:
+        """Whether somebody has it."""
         if role == "publisher":
-            nodes = (await ask(PUBLISHERS, PublishersRequest(topic))).publishers
+            nodes = set((await ask(PUBLISHERS, PublishersRequest(name))).publishers)
+        elif role == "subscription":
+            nodes = set((await ask(SUBSCRIBERS, SubscribersRequest(name))).subscribers)
         else:
-            nodes = (await ask(SUBSCRIBERS, SubscribersRequest(topic))).subscribers
-        self._held[role][topic] = set(nodes)
+            nodes = {(await ask(SERVICE_NODE, ServiceNodeRequest(name))).node} - {""}
+        self._held[role][name] = nodes
+        return bool(nodes)
 
     async def _learn_types(self, services: frozenset[str], ask: Ask) -> None:
         self._service_types = {
@@ -159,10 +183,6 @@ async def _actions(ask: Ask) -> tuple[str, ...]:
     except UnavailableError:  # ROS 1 has none
         return ()
     return told
-
-
-def _ends(names: Iterable[str], types: dict[str, str], role: str) -> set[Endpoint]:
-    return {Endpoint(name, types.get(name, ""), role, True) for name in names}
 
 
 def _long(ros_type: str, kind: str) -> str:

@@ -8,12 +8,12 @@ from typing import Final
 from parley.messages.topics import Service
 
 __all__ = [
-    "ACTION_SERVERS", "GET_PARAM", "NODES", "NODE_DETAILS", "PUBLISHERS", "SERVICES", "SERVICE_TYPE",
-    "SUBSCRIBERS", "TOPICS", "ActionServersRequest", "ActionServersResponse", "GetParamRequest",
-    "GetParamResponse", "NodeDetailsRequest", "NodeDetailsResponse", "NodesRequest", "NodesResponse",
-    "PublishersRequest", "PublishersResponse", "ServiceTypeRequest", "ServiceTypeResponse",
-    "ServicesRequest", "ServicesResponse", "SubscribersRequest", "SubscribersResponse", "TopicsRequest",
-    "TopicsResponse",
+    "ACTION_SERVERS", "GET_PARAM", "NODES", "NODE_DETAILS", "PUBLISHERS", "SERVICES", "SERVICE_NODE",
+    "SERVICE_TYPE", "SUBSCRIBERS", "TOPICS", "ActionServersRequest", "ActionServersResponse",
+    "GetParamRequest", "GetParamResponse", "NodeDetailsRequest", "NodeDetailsResponse", "NodesRequest",
+    "NodesResponse", "PublishersRequest", "PublishersResponse", "ServiceNodeRequest", "ServiceNodeResponse",
+    "ServiceTypeRequest", "ServiceTypeResponse", "ServicesRequest", "ServicesResponse",
+    "SubscribersRequest", "SubscribersResponse", "TopicsRequest", "TopicsResponse",
 ]  # fmt: skip
 
 
@@ -37,7 +37,7 @@ class ServicesRequest:
 
 @dataclass(frozen=True, slots=True)
 class ServicesResponse:
-    """rosapi_msgs/srv/Services, response."""
+    """rosapi_msgs/srv/Services, response: those that somebody answers, or only calls."""
 
     services: tuple[str, ...] = ()
 
@@ -99,6 +99,20 @@ class SubscribersResponse:
 
 
 @dataclass(frozen=True, slots=True)
+class ServiceNodeRequest:
+    """rosapi_msgs/srv/ServiceNode, request."""
+
+    service: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class ServiceNodeResponse:
+    """rosapi_msgs/srv/ServiceNode, response: the node's name; empty: nobody answers it."""
+
+    node: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class ServiceTypeRequest:
     """rosapi_msgs/srv/ServiceType, request."""
 
@@ -151,6 +165,9 @@ PUBLISHERS: Final = Service(
 )
 SUBSCRIBERS: Final = Service(
     "/rosapi/subscribers", SubscribersRequest, SubscribersResponse, "rosapi_msgs/srv/Subscribers"
+)
+SERVICE_NODE: Final = Service(
+    "/rosapi/service_node", ServiceNodeRequest, ServiceNodeResponse, "rosapi_msgs/srv/ServiceNode"
 )
 SERVICE_TYPE: Final = Service(
     "/rosapi/service_type", ServiceTypeRequest, ServiceTypeResponse, "rosapi_msgs/srv/ServiceType"

@@ -121,6 +121,7 @@ class RosbridgeServer:
                 f"{package}/Subscribers",
                 lambda args: {"subscribers": self._holders(args, lambda client: client.hears)},
             ),
+            "/rosapi/service_node": (f"{package}/ServiceNode", self._service_node),
             "/rosapi/service_type": (f"{package}/ServiceType", self._service_type),
             "/rosapi/action_servers": (f"{package}/GetActionServers", self._action_servers),
         }
@@ -373,6 +374,11 @@ class RosbridgeServer:
     @staticmethod
     def _shown(names: Iterable[Iterable[str]]) -> list[str]:
         return sorted({name for some in names for name in some if "/_" not in name})
+
+    def _service_node(self, args: Any) -> Frame:
+        service = args.get("service", "") if isinstance(args, dict) else ""
+        answered = any(service in each.answers for each in self._clients)
+        return {"node": ROSAPI if service in self._rosapi else BRIDGE if answered else ""}
 
     def _service_type(self, args: Any) -> Frame:
         service = args.get("service", "") if isinstance(args, dict) else ""
