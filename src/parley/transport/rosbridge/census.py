@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Iterable, Set
+import asyncio
+from collections.abc import Awaitable, Callable, Iterable, Sequence, Set
 from typing import Any, Final
 
 from parley.errors import UnavailableError
@@ -34,11 +35,14 @@ __all__ = ["BRIDGE", "Ask", "Census"]
 Ask = Callable[[Service[Any, Any], Any], Awaitable[Any]]
 
 BRIDGE: Final = "/rosbridge_websocket"
-"""The node of a bridge, in which the ends of all its clients are. It may be asked about always: as it
-goes, so does the connection."""
+"""The node of a bridge, in which the ends of all its clients are. It alone is asked what it has: as it goes,
+so does the connection."""
 
 ROUND_LOOKS: Final = 5
-"""Within so many looks, who is at the other side of each end of this process is asked."""
+"""Within so many looks, who is at the other side of each end of this process is asked again."""
+AT_MOST: Final = 64
+"""So many names are asked about in one look."""
+SIDE_BY_SIDE: Final = 4
 
 _PARTS: Final = ("send_goal", "cancel_goal", "get_result")
 _OTHER_SIDE: Final = {"publisher": "subscription", "subscription": "publisher"}
@@ -48,32 +52,31 @@ _OF_A_NODE: Final = frozenset({
     "get_type_description", "list_parameters", "set_logger_level", "set_logger_levels", "set_parameters",
     "set_parameters_atomically",
 })  # fmt: skip
-"""How services are called that a node of ROS has as long as it lives."""
+"""How services are called that a node of ROS has as long as it lives; these are there if they are listed."""
+
+Side = tuple[str, str]
+"""Name of a topic or service, and the role of who has it."""
 
 
 class Census:
-    """Asks at each look for what exists, and as little as possible for who has it.
+    """Asks at each look what exists, and by name who has it.
 
-    `rosapi` of ROS 2 ends as a whole when it is asked for the details of a node that has just gone
-    (rosbridge_suite, issue 865). The lists of topics, services and nodes name no node, so that nothing
-    happens to it. Each node is asked about once, after two looks that found it; what it opens later is
-    found by asking about topics: for these `rosapi` looks through the nodes itself, in one go.
+    `rosapi` of ROS 2 ends as a whole when it is asked for the details of a node that has gone since it was
+    listed (rosbridge_suite, issue 865). For a topic or service it looks through the nodes itself, at once.
     """
 
     def __init__(self) -> None:
-        self._nodes: frozenset[str] = frozenset()
-        self._asked: set[str] = set()
-        self._held: dict[str, dict[str, set[str]]] = {"publisher": {}, "subscription": {}, "server": {}}
-        """By role, and name of topic or service: which nodes have it."""
-        self._nobodys: dict[str, Set[str]] = {"topic": set(), "service": set()}
-        """Names for which `rosapi` names nobody: of hidden nodes, or services that are only called."""
+        self._nodes: Set[str] = frozenset()
+        self._held: dict[Side, Set[str]] = {}
+        """Which nodes beside the bridge are there, as was told last; who left since is taken out."""
+        self._owed: Set[Side] = frozenset()
         self._looks = 0
         self._service_types: dict[str, str] = {}
 
     @property
     def is_settled(self) -> bool:
-        """Whether every node was asked about; if not, the next look should be soon."""
-        return self._nodes <= self._asked
+        """Whether all was asked since somebody came; if not, the next look should be soon."""
+        return not self._owed
 
     async def take(self, ask: Ask, own: Iterable[Endpoint] = ()) -> frozenset[Endpoint]:
         """Look once; `own` are the ends of this process.
@@ -85,96 +88,81 @@ class Census:
         types = {
             name: _long(ros_type, "msg") for name, ros_type in zip(told.topics, told.types, strict=False)
         }
-        services = frozenset((await ask(SERVICES, ServicesRequest())).services)
-        actions = await _actions(ask)
-        await self._learn_types(services, ask)
-        await self._ask_about_nodes(ask)
-        self._forget_all_but(types.keys(), services)
-        for name, role in self._in_turn(services, own):
-            await self._ask_who(name, role, ask)
-        if self.is_settled:  # what still is nobody's, a node opened after it was asked about
-            await self._ask_whose("topic", types.keys(), ask)
-            await self._ask_whose("service", services, ask)
+        services = await self._services(ask)
+        lasting = {(name, "server") for name in services if _lives_with_its_node(name)}
+        closable = {(name, "server") for name in services} - lasting
+        sides = {(name, role) for name in types for role in _OTHER_SIDE} | closable
+        self._compare(frozenset((await ask(NODES, NodesRequest())).nodes), sides)
+        mine = {(end.name, _OTHER_SIDE[end.role]) for end in own if end.role in _OTHER_SIDE} & sides
+        await self._ask_about(self._due(sorted(mine), sorted(closable)), ask)
         self._looks += 1
-        types |= self._service_types
+        there = {side for side, nodes in self._held.items() if nodes} | await self._bridged(ask) | lasting
         ends = {
-            Endpoint(name, types.get(name, ""), role, True)
-            for role, held in self._held.items()
-            for name, nodes in held.items()
-            if nodes
+            Endpoint(name, (services if role == "server" else types).get(name, ""), role, True)
+            for name, role in there
         }
-        ends |= {
-            Endpoint(f"{name}/_action/{part}", "", "server", True) for name in actions for part in _PARTS
-        }
-        return frozenset(ends)
-
-    async def _ask_about_nodes(self, ask: Ask) -> None:
-        before, self._nodes = self._nodes, frozenset((await ask(NODES, NodesRequest())).nodes)
-        self._asked &= self._nodes
-        for held in self._held.values():
-            for nodes in held.values():
-                nodes &= self._nodes
-        for node in sorted(self._nodes):
-            if node.startswith(BRIDGE) or node in before - self._asked:
-                has = await ask(NODE_DETAILS, NodeDetailsRequest(node))
-                self._note(node, "publisher", has.publishing)
-                self._note(node, "subscription", has.subscribing)
-                self._note(node, "server", has.services)
-                self._asked.add(node)
-
-    def _note(self, node: str, role: str, names: Iterable[str]) -> None:
-        held = self._held[role]
-        for nodes in held.values():
-            nodes.discard(node)
-        for name in names:
-            held.setdefault(name, set()).add(node)
-
-    def _forget_all_but(self, topics: Set[str], services: Set[str]) -> None:
-        for role, held in self._held.items():
-            there = services if role == "server" else topics
-            self._held[role] = {name: nodes for name, nodes in held.items() if name in there}
-        self._nobodys = {
-            "topic": self._nobodys["topic"] & topics,
-            "service": self._nobodys["service"] & services,
-        }
-
-    def _in_turn(self, services: Set[str], own: Iterable[Endpoint]) -> Iterable[tuple[str, str]]:
-        """Names with the role of whom to ask for: some at the other side of own ends, and a service."""
-        sides = sorted({(end.name, _OTHER_SIDE[end.role]) for end in own if end.role in _OTHER_SIDE})
-        yield from sides[self._looks % ROUND_LOOKS :: ROUND_LOOKS]
-        closable = sorted(
-            name
-            for name in services
-            if name.rpartition("/")[2] not in _OF_A_NODE and not name.startswith(_ROSAPI)
+        actions = await _actions(ask)
+        return frozenset(
+            ends
+            | {Endpoint(f"{name}/_action/{part}", "", "server", True) for name in actions for part in _PARTS}
         )
+
+    def _compare(self, nodes: Set[str], sides: Set[Side]) -> None:
+        """Forget what went; whoever came may have opened anything."""
+        self._held = {side: who & nodes for side, who in self._held.items() if side in sides}
+        self._owed = (self._owed & sides) | (sides - self._held.keys()) if nodes <= self._nodes else sides
+        self._nodes = nodes
+
+    def _due(self, mine: Sequence[Side], closable: Sequence[Side]) -> Sequence[Side]:
+        """What to ask about now: what is owed, some of the other sides of own ends, and a service."""
+        owed = [*(side for side in mine if side in self._owed), *sorted(self._owed)]
+        turn = [*mine[self._looks % ROUND_LOOKS :: ROUND_LOOKS]]
         if closable:
-            yield closable[self._looks % len(closable)], "server"
+            turn.append(closable[self._looks % len(closable)])
+        return list(dict.fromkeys([*owed, *turn]))[:AT_MOST]
 
-    async def _ask_whose(self, kind: str, names: Set[str], ask: Ask) -> None:
-        roles = ("server",) if kind == "service" else ("publisher", "subscription")
-        known = {name for role in roles for name, nodes in self._held[role].items() if nodes}
-        for name in sorted(names - known - self._nobodys[kind]):
-            if not any([await self._ask_who(name, role, ask) for role in roles]):
-                self._nobodys[kind] |= {name}
+    async def _ask_about(self, sides: Sequence[Side], ask: Ask) -> None:
+        for at in range(0, len(sides), SIDE_BY_SIDE):
+            some = sides[at : at + SIDE_BY_SIDE]
+            answers = await asyncio.gather(*(_who(name, role, ask) for name, role in some))
+            self._held |= zip(some, answers, strict=True)
+            self._owed -= set(some)
 
-    async def _ask_who(self, name: str, role: str, ask: Ask) -> bool:
-        """Whether somebody has it."""
-        if role == "publisher":
-            nodes = set((await ask(PUBLISHERS, PublishersRequest(name))).publishers)
-        elif role == "subscription":
-            nodes = set((await ask(SUBSCRIBERS, SubscribersRequest(name))).subscribers)
-        else:
-            nodes = {(await ask(SERVICE_NODE, ServiceNodeRequest(name))).node} - {""}
-        self._held[role][name] = nodes
-        return bool(nodes)
+    async def _bridged(self, ask: Ask) -> set[Side]:
+        """What the bridge has for its clients."""
+        sides = set[Side]()
+        for node in self._nodes:
+            if node.startswith(BRIDGE):
+                has = await ask(NODE_DETAILS, NodeDetailsRequest(node))
+                sides |= {(name, "publisher") for name in has.publishing}
+                sides |= {(name, "subscription") for name in has.subscribing}
+                sides |= {(name, "server") for name in has.services}
+        return sides
 
-    async def _learn_types(self, services: frozenset[str], ask: Ask) -> None:
-        self._service_types = {
-            name: ros_type for name, ros_type in self._service_types.items() if name in services
-        }
-        for name in services - self._service_types.keys():
-            told = (await ask(SERVICE_TYPE, ServiceTypeRequest(name))).type
-            self._service_types[name] = _long(told, "srv")
+    async def _services(self, ask: Ask) -> dict[str, str]:
+        """The type of each that is listed: somebody answers it, or only calls it."""
+        listed = (await ask(SERVICES, ServicesRequest())).services
+        for name in listed:
+            if name not in self._service_types:
+                told = (await ask(SERVICE_TYPE, ServiceTypeRequest(name))).type
+                self._service_types[name] = _long(told, "srv")
+        self._service_types = {name: self._service_types[name] for name in listed}
+        return self._service_types
+
+
+async def _who(name: str, role: str, ask: Ask) -> Set[str]:
+    """Which nodes beside the bridge have it."""
+    if role == "publisher":
+        nodes = (await ask(PUBLISHERS, PublishersRequest(name))).publishers
+    elif role == "subscription":
+        nodes = (await ask(SUBSCRIBERS, SubscribersRequest(name))).subscribers
+    else:
+        nodes = ((await ask(SERVICE_NODE, ServiceNodeRequest(name))).node,)
+    return {node for node in nodes if node and not node.startswith(BRIDGE)}
+
+
+def _lives_with_its_node(service: str) -> bool:
+    return service.startswith(_ROSAPI) or service.rpartition("/")[2] in _OF_A_NODE
 
 
 async def _actions(ask: Ask) -> tuple[str, ...]:
