@@ -148,6 +148,30 @@ def test_a_question_for_a_password_leaves_the_terminal_as_it_was() -> None:
     os.close(theirs)
 
 
+HEARD_LATE = """
+import asyncio, os, signal, threading, time
+from parley.cli.on_loop import interruptible, on_loop
+
+def elsewhere():  # it breaks off no call of the main thread, as when it came right before that began
+    time.sleep(0.5)
+    signal.pthread_kill(threading.get_ident(), signal.{})
+
+def read():
+    with interruptible():
+        os.read(os.pipe()[0], 1)
+
+threading.Thread(target=elsewhere).start()
+{}
+"""
+
+
+@pytest.mark.parametrize("waits", ["read()", "on_loop(asyncio.sleep(60))"])
+@pytest.mark.parametrize("sent", [INT, TERM])
+def test_a_signal_right_before_a_wait_begins_ends_it_all_the_same(waits: str, sent: signal.Signals) -> None:
+    command = [sys.executable, "-c", HEARD_LATE.format(sent.name, waits)]
+    assert subprocess.run(command, check=False, timeout=ENDS_WITHIN_S).returncode == 128 + sent
+
+
 def test_a_command_that_waits_for_input_ends(tmp_path: Path) -> None:
     with running("interpret", tmp_path) as process:
         assert process.stdin is not None and process.stdout is not None

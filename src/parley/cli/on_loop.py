@@ -5,7 +5,9 @@ from __future__ import annotations
 import asyncio
 import os
 import signal
+import socket
 import threading
+import time
 from collections.abc import Callable, Coroutine, Iterator
 from contextlib import contextmanager
 from types import FrameType
@@ -20,6 +22,7 @@ PULSE: Final = "PARLEY_PULSE"
 BEAT_S: Final = 1.0
 """Wall time between two signs of life there."""
 
+_NUDGE_S: Final = 0.2
 _PATIENCE_S: Final = 5.0
 """How long the closing has before Ctrl-C, pressed again, cuts it short."""
 
@@ -62,7 +65,8 @@ class _Ending:
             raise asyncio.CancelledError
         beating = asyncio.create_task(_beat(), name="pulse")
         try:
-            return await work
+            with _woken(self._loop):
+                return await work
         finally:
             beating.cancel()
 
@@ -77,6 +81,25 @@ class _Ending:
         if self._loop is not None and self._task is not None and not self._loop.is_closed():
             self._task.cancel()
             self._loop.call_soon_threadsafe(lambda: None)  # wakes a loop that waits
+
+
+@contextmanager
+def _woken(loop: asyncio.AbstractEventLoop) -> Iterator[None]:
+    """Let a signal wake the loop also if it comes in the moment in which that begins to wait.
+
+    Python's own handler would run only when the wait is over.
+    """
+    ours, theirs = socket.socketpair()
+    with ours, theirs:
+        ours.setblocking(False)
+        theirs.setblocking(False)
+        before = signal.set_wakeup_fd(theirs.fileno(), warn_on_full_buffer=False)
+        loop.add_reader(ours, ours.recv, 64)
+        try:
+            yield
+        finally:
+            loop.remove_reader(ours)
+            signal.set_wakeup_fd(before)
 
 
 async def _beat() -> None:
@@ -98,10 +121,28 @@ def interruptible() -> Iterator[None]:
         SystemExit: One of them came.
         CancelledError: One came right before.
     """
-    with _handled_by(_raise):
+    with _handled_by(_raise), _nudged():
         if (task := _current_task()) is not None and task.cancelling():
             raise asyncio.CancelledError
         yield
+
+
+@contextmanager
+def _nudged() -> Iterator[None]:
+    """Break off a system call again and again: a signal right before it is heard in between only."""
+    if not hasattr(signal, "setitimer"):  # Windows
+        yield
+        return
+    began_s = time.monotonic()
+    handler = signal.signal(signal.SIGALRM, lambda *_: None)
+    left_s, every_s = signal.setitimer(signal.ITIMER_REAL, _NUDGE_S, _NUDGE_S)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, handler)
+        if left_s:  # somebody else's
+            signal.setitimer(signal.ITIMER_REAL, max(left_s - (time.monotonic() - began_s), 0.001), every_s)
 
 
 def _raise(number: int, _: FrameType | None) -> None:
