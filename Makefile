@@ -35,8 +35,8 @@ types: $(VENV)/.runtime frontend/node_modules/.installed ## Renew the page's typ
 	@$(BIN)/parley web openapi > frontend/openapi.json
 	@$(NPM) run --silent types
 
-# Twice as many as there are cores: tests wait for processes and sockets a good part of their time.
-WORKERS = $(shell echo $$(($$(getconf _NPROCESSORS_ONLN) * 2)))
+# Half as many again as there are cores: tests wait for processes and sockets a good part of their time.
+WORKERS = $(shell echo $$((($$(getconf _NPROCESSORS_ONLN) * 3 + 1) / 2)))
 test: $(VENV)/.dev $(PAGE) ## All tests that take seconds
 	@$(BIN)/python -m pytest -q -n $(WORKERS) --dist loadfile --no-loadscope-reorder -m "not soak and not ros"
 	@$(MAKE) --no-print-directory test-page

@@ -47,6 +47,7 @@ export default defineConfig({
   },
   test: {
     environment: 'jsdom',
+    maxWorkers: '100%', // on two cores it would be one
     include: ['src/**/*.test.{ts,tsx}'],
     setupFiles: ['src/test-setup.ts'],
     css: { modules: { classNameStrategy: 'non-scoped' } },
