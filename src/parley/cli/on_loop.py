@@ -6,6 +6,7 @@ import asyncio
 import os
 import signal
 import socket
+import sys
 import threading
 import time
 from collections.abc import Callable, Coroutine, Iterator
@@ -89,6 +90,9 @@ def _woken(loop: asyncio.AbstractEventLoop) -> Iterator[None]:
 
     Python's own handler would run only when the wait is over.
     """
+    if sys.platform == "win32":  # its loop does so itself, and reads no sockets of others
+        yield
+        return
     ours, theirs = socket.socketpair()
     with ours, theirs:
         ours.setblocking(False)
@@ -130,7 +134,7 @@ def interruptible() -> Iterator[None]:
 @contextmanager
 def _nudged() -> Iterator[None]:
     """Break off a system call again and again: a signal right before it is heard in between only."""
-    if not hasattr(signal, "setitimer"):  # Windows
+    if sys.platform == "win32":  # it has no such timer
         yield
         return
     began_s = time.monotonic()

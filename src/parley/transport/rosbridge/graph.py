@@ -31,7 +31,7 @@ class Graph(EndpointGraph):
 
     @property
     def is_settled(self) -> bool:
-        """Whether nobody came or went of whom more is to be asked; if not, the next look should be soon."""
+        """See `Census.is_settled`."""
         return self._census.is_settled
 
     def ends(self) -> Iterable[Endpoint]:

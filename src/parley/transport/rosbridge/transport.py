@@ -53,7 +53,7 @@ class RosbridgeTransport(RemoteTransport[Graph]):
         address: Of the bridge: `ws://host:port`, or `wss://...` for encryption.
         ros: Which generation of ROS is behind it.
         silence_s: A bridge that gives no sign of life for so long is taken for gone.
-        look_s: How often the bridge is asked who is there; four times as often while some come or go.
+        look_s: How often the bridge is asked who is there; four times as often while not all is known.
         pace_ms: By ROS type, the shortest time between two of its messages.
         authority: Whose certificates are trusted, a file; None: those the machine trusts.
     """
